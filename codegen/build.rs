@@ -1,5 +1,5 @@
-//! A number for this state of the compiler: expansions that another state of it
-//! kept are none of this one's.
+//! Computes a hash of the compiler's source, so that expansions stored by another version of the
+//! compiler are ignored.
 
 use std::collections::hash_map::DefaultHasher;
 use std::fs;
@@ -9,8 +9,8 @@ use std::path::{Path, PathBuf};
 fn main() -> std::io::Result<()> {
     let mut files = Vec::new();
     collect(Path::new("src"), &mut files)?;
-    // The versions of what the compiler is built from, Symbolica's among them; in a
-    // package by itself there is no workspace above.
+    // The versions of the compiler's dependencies, including Symbolica. A package without a
+    // workspace has no file above.
     files.push("Cargo.toml".into());
     files.extend(Some(PathBuf::from("../Cargo.toml")).filter(|path| path.is_file()));
     files.sort();

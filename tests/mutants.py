@@ -82,7 +82,7 @@ EXPRESSIONS = [
     ("torque from outside pulls in loops", f"{C}/program/link/functions.rs",
      "builder.add(pushed, outside)", "builder.sub(pushed, outside)",
      OUTSIDE, "balance::of_trees_in_loops_over_links"),
-    ("weight in the reaction of a prescribed link", f"{C}/program/link/held.rs",
+    ("weight in the reaction of a prescribed link", f"{C}/program/link/prescribed.rs",
      "builder.sub(self.steady_torque, pull)", "builder.add(self.steady_torque, pull)",
      OUTSIDE, "prescribed::the_free_tree_moves_so_under_the_reactions"),
     ("weight of straight springs between copies", f"{C}/mechanics/chords.rs",

@@ -1,12 +1,11 @@
-//! `benches/instructions/run.sh`: instructions of what the speed of simulations stands on,
-//! counted by valgrind. They repeat to the instruction where a clock does not, so that a
-//! change of few per cent shows on a busy machine.
+//! `benches/instructions/run.sh`: instruction counts of evaluations and steps, measured by
+//! valgrind. Unlike times they are exactly repeatable, so that a change of a few per cent is
+//! visible even on a busy machine.
 //!
-//! valgrind stands in for a processor that has AVX2 where the machine has it, and never
-//! AVX-512: what is dispatched on the machine's features runs the code for AVX2, whose
-//! registers hold half of what those of AVX-512 do. A division counts as a product does,
-//! and waiting counts nothing; time is measured by `cargo bench` and the program
-//! `evaluation-speed`.
+//! valgrind emulates a processor with AVX2 if the machine has it, and never AVX-512. Code that is
+//! chosen by the machine's features is therefore counted in its AVX2 version, whose registers
+//! contain half as many numbers. A division counts as much as a product, and waiting counts
+//! nothing; `cargo bench` and the program `evaluation-speed` measure time.
 
 #![expect(missing_docs, reason = "of what gungraun's macros define")]
 
@@ -56,31 +55,32 @@ trees! {
     Loops1023: 10 generations, recursion, loops;
 }
 
-/// Passes of one count: what it shows is divided by them.
+/// Number of passes in one count; the printed count is divided by it.
 const PASSES: usize = 64;
 
-/// What is counted: [`PASSES`] evaluations, states or steps.
+/// Function whose instructions are counted: [`PASSES`] evaluations, states or steps.
 type Passes = Box<dyn FnMut()>;
 
-/// Has gone through once: the processor's features are asked for, memory is laid out.
+/// Runs the function once, so that processor features are detected and memory is allocated before
+/// counting.
 fn warm(mut passes: impl FnMut() + 'static) -> Passes {
     passes();
     Box::new(passes)
 }
 
-/// Angle of a link in a state.
+/// Returns the angle of a link in a state, in rad.
 fn angle(link: usize, state: usize) -> f64 {
     ((7 * link + state) % 64) as f64 / 11.0 - 3.0
 }
 
-/// Angles and angular velocities of states.
+/// Returns angles and angular velocities of states.
 fn states(links: usize) -> Vec<[Vec<f64>; 2]> {
     let of =
         |state| [1.0, 2.0].map(|scale| (0..links).map(|link| scale * angle(link, state)).collect());
     (0..PASSES).map(of).collect()
 }
 
-/// Accelerations of states one by one.
+/// Creates a function that evaluates the accelerations of states one by one.
 fn one_by_one<M: Pendulum<f64> + 'static>(model: M) -> Passes {
     let (states, mut alpha) = (states(model.links()), vec![0.0; model.links()]);
     let mut workspace = Workspace::new();
@@ -92,7 +92,7 @@ fn one_by_one<M: Pendulum<f64> + 'static>(model: M) -> Passes {
     })
 }
 
-/// Instructions of a tree that is described while the program runs.
+/// Creates a function that evaluates the accelerations of a tree that is built at run time.
 fn run_time_tree(text: &str) -> Passes {
     let tree = PendulumTree::parse(text).expect("a tree");
     let (states, mut alpha) = (states(tree.links()), vec![0.0; tree.links()]);
@@ -105,7 +105,7 @@ fn run_time_tree(text: &str) -> Passes {
     })
 }
 
-/// The paper's pendulum and the rods, described while the program runs.
+/// Description of the paper's pendulum and of the rods, for trees at run time.
 const PAPER: &str = "gravity = 9.80665,
     parent(mass = 0.12880, com = 0.084, inertia = 1.88e-3, joint = 0.27) [
         child(mass = 0.10531, com = 0.043, inertia = 0.516e-3) * 2
@@ -114,7 +114,8 @@ const RODS: &str = "gravity = 9.80665,
     rod: generations(count = 7, branching = 2, shape = rod, mass = 0.12, length = 0.3,
         mass_ratio = 0.5, length_ratio = 0.7)";
 
-/// Accelerations of states in lanes.
+/// Creates a function that evaluates the accelerations of several states at once, in vector
+/// registers.
 fn in_lanes<M: Pendulum<f64> + 'static>(model: M) -> Passes {
     let columns = |scale: f64| -> Vec<Vec<f64>> {
         let column = |link| {
@@ -132,7 +133,7 @@ fn in_lanes<M: Pendulum<f64> + 'static>(model: M) -> Passes {
     })
 }
 
-/// Kinetic and potential energy.
+/// Evaluates kinetic and potential energy.
 fn both_energies<M: Energy<f64> + 'static>(model: M) -> Passes {
     let (states, mut workspace) = (states(model.links()), Workspace::new());
     warm(move || {
@@ -143,7 +144,7 @@ fn both_energies<M: Energy<f64> + 'static>(model: M) -> Passes {
     })
 }
 
-/// Sine and cosine by the standard library.
+/// Creates a function that evaluates sine and cosine of the standard library.
 fn sines() -> Passes {
     let angles: Vec<f64> = (0..PASSES).map(|state| angle(0, state)).collect();
     warm(move || {
@@ -153,7 +154,8 @@ fn sines() -> Passes {
     })
 }
 
-/// W of the paper's pendulum, exact, from velocities.
+/// Creates a function that evaluates the exact energy transfer W of the paper's pendulum from
+/// velocities.
 fn exact_transfer() -> Passes {
     let model = BranchedDouble::new();
     let state = |state| [1.0, 2.0].map(|scale| [0, 1, 2].map(|link| scale * angle(link, state)));
@@ -165,7 +167,7 @@ fn exact_transfer() -> Passes {
     })
 }
 
-/// Steps of the paper's pendulum at a tolerance of 1e-9.
+/// Creates a function that makes steps of the paper's pendulum at a tolerance of 1e-9.
 fn steps_of<M>(method: &M) -> Passes
 where
     M: Integrator<f64, AbsoluteAngles<BranchedDouble>> + 'static,

@@ -1,9 +1,9 @@
-//! The worth of each pass over programs in time: the same scenes with and
-//! without it, in one run. `run.sh` writes `variants.rs` and builds this.
+//! Time saved by each optimisation pass of the compiler: measures the same scenes with and without
+//! the pass, in one run. `run.sh` writes `variants.rs` and builds this program.
 //!
-//! Variants take turns; each time is divided by that of the program with all passes in the
-//! same turn, and the median of these ratios is printed. `again` is a second copy of that
-//! program: how far it is from 1 is what the placement of code makes.
+//! Variants are timed alternately. Each time is divided by that of the program with all passes in
+//! the same turn, and the median of these ratios is printed. `again` is a second copy of that
+//! program: its distance from 1 is the effect of the placement of code.
 
 mod variants;
 
@@ -14,16 +14,18 @@ use rand_xoshiro::rand_core::{Rng, SeedableRng};
 use std::hint::black_box;
 use std::time::Instant;
 
-/// Numbers in one pass, about: those of all variants fit into the second cache.
+/// Approximate number of values in one pass; the values of all variants fit into the second-level
+/// cache.
 const NUMBERS: usize = 2048;
 
 /// One pass over all states.
 type Pass = Box<dyn FnMut()>;
 
-/// A scene without one of the passes, or with all.
+/// A scene compiled without one of the optimisation passes, or with all of them.
 struct Variant {
     name: &'static str,
-    /// Accelerations, one state after the other; in a batch; all other functions.
+    /// Timed functions: accelerations of one state after the other, accelerations in a batch, and
+    /// all other functions.
     passes: [Pass; 3],
 }
 
@@ -31,7 +33,7 @@ fn count<const N: usize>() -> usize {
     (NUMBERS / N).next_multiple_of(16)
 }
 
-/// Numbers between −`bound` and `bound`.
+/// Returns random numbers between −`bound` and `bound`.
 fn random<const N: usize>(seed: u64, bound: f64) -> Vec<[f64; N]> {
     let mut random = SplitMix64::seed_from_u64(seed);
     let mut next = || {
@@ -83,14 +85,14 @@ fn median(mut values: Vec<f64>) -> f64 {
     values[values.len() / 2]
 }
 
-/// For every variant and pass the median of its ratios to the first variant.
+/// Returns, for every variant and function, the median of its ratios to the first variant.
 fn ratios(variants: &mut [Variant], turns: usize) -> Vec<[f64; 3]> {
     let mut ratios = vec![[const { Vec::new() }; 3]; variants.len()];
     for _ in 0..turns {
         for kind in 0..3 {
             let mut first = None;
             for (variant, ratios) in variants.iter_mut().zip(&mut ratios) {
-                // Its code and data are at hand, whatever ran before it.
+                // One run first, so that code and data are in the caches.
                 variant.passes[kind]();
                 let start = Instant::now();
                 variant.passes[kind]();
@@ -106,7 +108,7 @@ fn main() {
     let turns = std::env::args().nth(1).and_then(|turns| turns.parse().ok());
     let turns = turns.unwrap_or(400);
     for (scene, mut variants) in variants::scenes() {
-        // Caches and the processor's clock settle.
+        // Warms up the caches and the processor's clock.
         ratios(&mut variants, turns / 10 + 1);
         println!("{scene}\n");
         println!("| without | one state | batch | other functions |\n|---|---:|---:|---:|");

@@ -1,16 +1,16 @@
-//! Emitted tokens as text, laid out to be read.
+//! Formatting of emitted tokens as readable source text.
 
 use proc_macro2::TokenStream;
 
-/// Lines are at most this long.
+/// Longest line, in characters.
 const WIDTH: usize = 89;
 
-/// Emitted tokens as formatted source text: items, and functions within an
-/// `impl`, stand a blank line apart.
+/// Formats emitted tokens as source text. Items, and the functions of an `impl`, are separated by
+/// blank lines.
 ///
 /// # Errors
-/// An error if the tokens are no Rust file; those of [`crate::expand`] always
-/// are one.
+/// An error if the tokens are not a Rust file; the tokens that [`crate::expand`] returns always are
+/// one.
 pub fn layout(tokens: TokenStream) -> syn::Result<String> {
     let file = syn::parse2(tokens)?;
     Ok(spaced(&prettyplease::unparse(&file)))
@@ -44,7 +44,8 @@ fn spaced(text: &str) -> String {
     spaced
 }
 
-/// Returns true if `line` begins an item behind one that ends with `before`.
+/// Returns true if `line` begins a new item and `before` ends the previous one, so that a blank
+/// line belongs between them.
 fn is_apart(before: &str, line: &str) -> bool {
     let (outer, item) = unindented(line);
     let (inner, end) = unindented(before);
@@ -52,7 +53,8 @@ fn is_apart(before: &str, line: &str) -> bool {
     if outer != inner || !ended {
         return false;
     }
-    // Items stand in the file or in an `impl`; in functions those with docs.
+    // Indented by at most four columns are the items of a file or of an `impl`. Deeper items,
+    // within functions, get a blank line only if they have docs.
     if outer > 4 {
         return item.starts_with("///");
     }
@@ -68,9 +70,8 @@ fn is_apart(before: &str, line: &str) -> bool {
         )
 }
 
-/// Returns true if a slice is taken apart from here on, over several lines.
-/// (Arrays that take several lines have none of their elements on the first
-/// one.)
+/// Returns true if `line` opens a slice pattern that goes on over several lines. (An array
+/// expression over several lines has no element on its first line.)
 fn is_open_pattern(line: &str) -> bool {
     let pattern = line.trim_start();
     let pattern = pattern.strip_prefix("let ").unwrap_or(pattern);
@@ -78,7 +79,7 @@ fn is_open_pattern(line: &str) -> bool {
     elements.is_some_and(|elements| !elements.is_empty() && !elements.contains(']'))
 }
 
-/// Writes `let [a, b, …] = value;`, whose elements take several lines.
+/// Writes `let [a, b, …] = value;` with the elements on several lines.
 fn push_pattern(text: &mut String, pattern: &str) {
     let (indent, _) = unindented(pattern);
     let (start, elements) = pattern.split_once('[').unwrap_or((pattern, ""));

@@ -1,23 +1,21 @@
-//! Compiler of the attribute `#[branched_pendulum(...)]` to specialised Rust
-//! code.
+//! Compiler of the attribute `#[branched_pendulum(...)]` to specialised Rust code.
 //!
-//! It is an ordinary library on token streams, so that every stage can be
-//! tested without a compiler around it:
+//! It is an ordinary library on token streams, so that every stage can be tested without a
+//! procedural macro:
 //!
 //! ```text
 //! tokens -> Description -> Scene -> Mechanics -> Program -> tokens
 //! ```
 //!
-//! `expand` is the whole pipeline, `stages` gives what it passes through,
-//! `ExpansionCache` keeps its results between builds, and `layout` writes the
-//! tokens as text. The derivation uses
-//! [Symbolica](https://symbolica.io) behind one door, `mechanics::algebra`;
-//! what is emitted is free of it.
+//! `expand` runs the whole pipeline, `stages` returns all intermediate results, `ExpansionCache`
+//! keeps expansions between builds, and `layout` formats the tokens as source text. The derivation
+//! uses [Symbolica](https://symbolica.io), which only the module `mechanics::algebra` names; the
+//! emitted code does not depend on it.
 //!
 //! # Features
 //!
-//! - `symbolica` (default): the whole compiler. Without it, the crate reads and checks
-//!   descriptions ([`description`], [`scene`] and what they stand on) and depends on no
+//! - `symbolica` (default): the whole compiler. Without it, the crate only reads and checks
+//!   descriptions ([`description`], [`scene`] and the modules that they use) and does not depend on
 //!   Symbolica.
 
 #[cfg(feature = "symbolica")]
@@ -28,10 +26,14 @@ pub mod emit;
 pub mod exact;
 pub mod functions;
 #[cfg(feature = "symbolica")]
+mod invocation;
+#[cfg(feature = "symbolica")]
 mod layout;
 #[cfg(feature = "symbolica")]
 pub mod mechanics;
 mod named_members;
+#[cfg(feature = "symbolica")]
+mod owned;
 #[cfg(feature = "symbolica")]
 mod pipeline;
 #[cfg(feature = "symbolica")]
@@ -40,6 +42,8 @@ pub mod report;
 pub mod scene;
 #[cfg(feature = "symbolica")]
 mod translate;
+#[cfg(feature = "symbolica")]
+mod user_folder;
 
 #[cfg(feature = "symbolica")]
 pub use cache::ExpansionCache;

@@ -1,8 +1,9 @@
-//! Enums whose members have names in code, and some a meaning in words: one list for all
-//! that is said of them.
+//! A macro for enums whose members have names in code, and some of them a description in words: one
+//! list defines both.
 
-/// Declares an enum with `ALL`, its members in their order, `name` and `named`. Members with a
-/// meaning, as in `Mass = "mass": "mass (kg)"`, have it as their docs and by `meaning`.
+/// Declares an enum with `ALL`, its members in order, and the methods `name` and `named`. If
+/// members have a meaning, as in `Mass = "mass": "mass (kg)"`, it becomes their docs and the result
+/// of `meaning`.
 macro_rules! named_members {
     (
         $(#[$about:meta])*
@@ -16,17 +17,17 @@ macro_rules! named_members {
         }
 
         impl $name {
-            /// All of them, in their order.
+            /// All members, in order of declaration.
             pub const ALL: [Self; [$($text),+].len()] = [$(Self::$member),+];
 
-            /// Name of the member.
+            /// Returns the name of the member in code.
             pub fn name(self) -> &'static str {
                 match self {
                     $(Self::$member => $text,)+
                 }
             }
 
-            /// Returns the member of that name, if there is one.
+            /// Returns the member with the given name, if there is one.
             pub fn named(name: &str) -> Option<Self> {
                 Self::ALL.into_iter().find(|member| member.name() == name)
             }
@@ -46,7 +47,7 @@ macro_rules! named_members {
         }
 
         impl $name {
-            /// Meaning of the member in words.
+            /// Returns the meaning of the member in words.
             pub fn meaning(self) -> &'static str {
                 match self {
                     $(Self::$member => $meaning,)+

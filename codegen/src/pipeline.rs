@@ -1,40 +1,41 @@
-//! The pipeline on one page: from the tokens of an attribute to those of its expansion.
+//! The pipeline on one page: from the tokens of an attribute to the tokens of its expansion.
 
-use crate::description::{self, Description};
+use crate::description::{self, CratePath, Description};
 use crate::emit;
+use crate::invocation;
 use crate::mechanics::{self, AlgebraError, Mechanics};
 use crate::program::{self, Pass, Program};
-use crate::report::{Diagnostic, Faults, SizeMessage, ValueMessage};
+use crate::report::{Diagnostic, Faults, SizeMessage, SyntaxMessage, ValueMessage};
 use crate::scene::{self, Scene};
 use proc_macro2::{Span, TokenStream};
 use quote::quote;
 
-/// Everything that the stages produce for one attribute.
+/// Results of all stages for one attribute.
 #[derive(Debug)]
 pub struct Stages {
     /// The attribute as written.
     pub description: Description,
     /// The validated tree.
     pub scene: Scene,
-    /// The mechanics that were derived for it.
+    /// The mechanics derived for the tree.
     pub mechanics: Mechanics,
-    /// The code to write, as a flat program.
+    /// The code to emit, as a flat list of operations.
     pub program: Program,
     /// The emitted tokens.
     pub tokens: TokenStream,
 }
 
-/// Runs all stages on an attribute's tokens and the item it stands on.
+/// Runs all stages on the tokens of an attribute and of the struct to which it is attached.
 ///
 /// # Errors
-/// The collected errors of the description, with the tokens that stand in for
-/// the item: its errors, and stubs so that an editor shows no others.
+/// The collected errors of the description, together with tokens to emit instead of an expansion:
+/// the errors, and stubs that keep an editor from reporting further ones.
 pub fn stages(attribute: TokenStream, item: TokenStream) -> Result<Stages, (Faults, TokenStream)> {
     stages_without(None, attribute, item)
 }
 
-/// As [`stages`], but without one of the passes over programs, to see the worth
-/// of that one.
+/// Runs all stages like [`stages`], but leaves out one of the optimisation passes over programs, to
+/// measure what that pass gains.
 ///
 /// # Errors
 /// The errors of [`stages`].
@@ -48,6 +49,11 @@ pub fn stages_without(
         let errors = report.to_compile_errors();
         return Err((report, quote!(#errors #item)));
     };
+    if description.crate_path.is_none()
+        && let Some(name) = invocation::renamed_runtime()
+    {
+        report.error(Span::call_site(), SyntaxMessage::RenamedCrate { name });
+    }
     let Some(scene) = scene::resolve(&description, &mut report) else {
         return Err(refuse(&description, report));
     };
@@ -69,7 +75,7 @@ pub fn stages_without(
         report.error(Span::call_site(), ValueMessage::ConstantRange { name });
         return Err(refuse(&description, report));
     }
-    // After this line nothing fails: a broken invariant is a bug.
+    // No stage below can fail: a broken invariant is a bug of the compiler.
     debug_assert_eq!(program.verify(), Ok(()));
     let tokens = emit::emit(&description.item, &scene, &mechanics, &program);
     Ok(Stages {
@@ -81,8 +87,8 @@ pub fn stages_without(
     })
 }
 
-/// Expands the attribute. Always gives tokens: on errors, `compile_error!`
-/// calls and stubs.
+/// Expands the attribute. Returns tokens in every case: on errors they are `compile_error!` calls
+/// and stubs.
 pub fn expand(attribute: TokenStream, item: TokenStream) -> TokenStream {
     match stages(attribute, item) {
         Ok(stages) => stages.tokens,
@@ -90,8 +96,8 @@ pub fn expand(attribute: TokenStream, item: TokenStream) -> TokenStream {
     }
 }
 
-/// The message about a failed derivation, at the observable that is at fault if
-/// one is.
+/// Builds the message about a failed derivation. If an observable caused the failure, the message
+/// points to it.
 fn underivable(description: &Description, error: &AlgebraError) -> Diagnostic {
     if let AlgebraError::DivisionByZero { observable } = error
         && let Some(found) = description
@@ -115,11 +121,18 @@ fn underivable(description: &Description, error: &AlgebraError) -> Diagnostic {
 fn refuse(description: &Description, report: Faults) -> (Faults, TokenStream) {
     let errors = report.to_compile_errors();
     if description.item.is_reserved() {
-        // A stub would add errors.
+        // A stub would cause further errors.
         let item = &description.item.tokens;
         return (report, quote!(#errors #item));
     }
-    let runtime = emit::runtime_path(&description.crate_path.clone().unwrap_or_default());
+    let path = description.crate_path.clone();
+    let path = path.or_else(|| {
+        invocation::renamed_runtime().map(|name| CratePath {
+            global: true,
+            segments: vec![name],
+        })
+    });
+    let runtime = emit::runtime_path(&path.unwrap_or_default());
     let stub = emit::stub(description, &runtime);
     (report, quote!(#errors #stub))
 }

@@ -1,5 +1,5 @@
-//! Texts of descriptions: any text gives a tree that can be computed, or mistakes with their
-//! places.
+//! Fuzz test of descriptions: any text gives either a tree that can be computed, or mistakes with
+//! their positions.
 
 #![no_main]
 
@@ -7,7 +7,7 @@ use branched_pendulum::prelude::*;
 use branched_pendulum_trees::TreeDescription;
 use libfuzzer_sys::{Corpus, fuzz_target};
 
-/// Larger trees are as slow as they are large, and no other code.
+/// Largest number of links. Larger trees take more time but use the same code.
 const LINKS: usize = 100;
 
 /// The value of all parameters.
@@ -32,7 +32,7 @@ fuzz_target!(|bytes: &[u8]| -> Corpus {
     Corpus::Keep
 });
 
-/// What a program asks of a description that it was handed.
+/// Calls all functions that a program may call on a description from its user.
 fn compute(description: &TreeDescription) {
     let names: Vec<String> = description.parameters().map(str::to_owned).collect();
     for name in &names {

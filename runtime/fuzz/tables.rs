@@ -1,4 +1,5 @@
-//! Files of measured data: any bytes give a recording in order, or an error that names the file.
+//! Fuzz test of files with measured data: any bytes give a valid recording, or an error that names
+//! the file.
 
 #![no_main]
 
@@ -12,7 +13,7 @@ use branched_pendulum_data::{
 };
 use libfuzzer_sys::fuzz_target;
 
-/// The file, of this process alone.
+/// Path of the file, which no other process uses.
 static FILE: LazyLock<PathBuf> = LazyLock::new(|| {
     let name = format!("branched-pendulum-fuzz-{}.csv", std::process::id());
     std::env::temp_dir().join(name)

@@ -1,7 +1,7 @@
-//! Errors of several kinds, each with its message beside it.
+//! Macro for error enums that defines each variant together with its message.
 
-/// Declares an error: its kinds as an enum has them, each with the message that it is shown
-/// by, which may name the fields. What a kind holds without a field has a name for that.
+/// Declares an error enum. Each variant has a message, which may contain its fields. A tuple
+/// variant needs a name for its value.
 macro_rules! errors {
     (
         $(#[$about:meta])*
@@ -24,7 +24,7 @@ macro_rules! errors {
         }
 
         impl core::fmt::Display for $name {
-            // Messages need not name all that a kind holds.
+            // A message need not contain all fields of its variant.
             #[allow(unused_variables)]
             fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
                 match self {

@@ -1,16 +1,16 @@
-//! Computations that can be ended from outside, in the middle of their steps.
+//! Computations that can be stopped from outside, between their steps.
 //!
-//! Methods, ensembles and searches [`look`] between two steps whether their computation is to
-//! go on. Where it is not, it ends by unwinding, and [`interruptible`] catches that: functions
-//! in between need not know of it.
+//! Methods, ensembles and searches call [`look`] between two steps to check if their computation
+//! has been interrupted. If so, it ends by unwinding the stack, which [`interruptible`] catches, so
+//! that functions in between need no code for it.
 
 #[cfg(feature = "std")]
 pub use self::watched::{Interrupted, interruptible};
 #[cfg(feature = "std")]
 pub(crate) use self::watched::{SharedWatcher, Watcher};
 
-/// Ends the computation if it is [`interruptible`] and was interrupted; of use in loops that
-/// run for long. Costs some nanoseconds, where nothing can be interrupted one.
+/// Ends the computation if it runs within [`interruptible`] and has been interrupted. Long loops
+/// should call it. A call takes some nanoseconds, or one nanosecond outside of [`interruptible`].
 #[inline]
 pub fn look() {
     #[cfg(feature = "std")]
@@ -27,10 +27,10 @@ mod watched {
     use std::sync::atomic::{AtomicBool, Ordering};
     use std::time::{Duration, Instant};
 
-    /// Time between two questions.
+    /// Time between two calls of the interruption function.
     const PAUSE: Duration = Duration::from_millis(20);
 
-    /// A computation was interrupted; nothing is left of it.
+    /// Error: the computation was interrupted, and its results are lost.
     #[derive(Clone, Copy, Debug, PartialEq, Eq)]
     pub struct Interrupted;
 
@@ -42,11 +42,12 @@ mod watched {
 
     impl std::error::Error for Interrupted {}
 
-    /// One computation, as each of its threads sees it.
+    /// Flag and function by which a thread finds out if its computation has been interrupted.
     #[derive(Clone)]
     pub(crate) struct Watcher {
         is_over: Arc<AtomicBool>,
-        /// Who is asked, and when the next time; by the thread that began alone.
+        /// Function that reports an interruption, and the time of its next call; only in the thread
+        /// that started the computation.
         question: Option<(Arc<dyn Fn() -> bool>, Instant)>,
     }
 
@@ -54,7 +55,7 @@ mod watched {
         static OWN: RefCell<Option<Watcher>> = const { RefCell::new(None) };
     }
 
-    /// Puts the watcher before back in its place.
+    /// Restores the thread's previous watcher when it is dropped.
     struct Before(Option<Watcher>);
 
     impl Drop for Before {
@@ -70,8 +71,8 @@ mod watched {
             work()
         }
 
-        /// The watcher of this thread's computation as its other threads have it; none where
-        /// it cannot be interrupted.
+        /// Returns the watcher that other threads of this thread's computation use; `None` if the
+        /// computation cannot be interrupted.
         pub(crate) fn of_others() -> Option<SharedWatcher> {
             OWN.with(|own| {
                 let is_over = own.borrow().as_ref()?.is_over.clone();
@@ -80,12 +81,12 @@ mod watched {
         }
     }
 
-    /// What other threads look at.
+    /// Flag by which the other threads learn of an interruption.
     #[derive(Clone)]
     pub(crate) struct SharedWatcher(Arc<AtomicBool>);
 
     impl SharedWatcher {
-        /// Does work that belongs to the computation.
+        /// Runs a part of the computation on this thread, so that it can be interrupted.
         pub(crate) fn watch<R>(self, work: impl FnOnce() -> R) -> R {
             let watcher = Watcher {
                 is_over: self.0,
@@ -111,7 +112,7 @@ mod watched {
             *next = now + PAUSE;
             Some((watcher.is_over.clone(), Some(ask.clone())))
         });
-        // Whoever is asked may begin a computation of its own on this thread.
+        // The interruption function may start a computation on this thread.
         if let Some((is_over, ask)) = question {
             answer(&is_over, ask);
         }
@@ -121,20 +122,21 @@ mod watched {
     fn answer(is_over: &AtomicBool, ask: Option<Arc<dyn Fn() -> bool>>) {
         if ask.is_none_or(|ask| ask()) {
             is_over.store(true, Ordering::Relaxed);
-            // No panic: nothing is written to the standard error.
+            // No panic, so that nothing is written to standard error.
             resume_unwind(Box::new(Interrupted));
         }
     }
 
-    /// Does work that ends early where `is_unwanted` returns true. This thread asks it some fifty
-    /// times a second, where it [`look`](super::look)s; threads of an
-    /// [`Ensemble`](crate::ensemble::Ensemble) end with it.
+    /// Runs work that ends early once `is_unwanted` returns true. This thread calls that function
+    /// about fifty times per second, during calls of [`look`](super::look); threads of an
+    /// [`Ensemble`](crate::ensemble::Ensemble) end too.
     ///
-    /// The work ends by unwinding: in programs that abort where others unwind it would end them.
+    /// The work ends by unwinding. In a program that is built to abort instead of unwinding, the
+    /// whole program ends.
     ///
     /// # Errors
     ///
-    /// [`Interrupted`].
+    /// [`Interrupted`] if the work was ended early.
     ///
     /// # Examples
     ///
@@ -167,7 +169,8 @@ mod watched {
             is_over: is_over.clone(),
             question: Some((Arc::new(is_unwanted), Instant::now() + PAUSE)),
         };
-        // What the work has changed is dropped with it or belongs to the caller, who is told.
+        // State changed by the work is dropped with it, or belongs to the caller, who gets the
+        // error.
         let outcome = catch_unwind(AssertUnwindSafe(|| watcher.watch(work)));
         outcome.map_err(|cause| match cause.downcast::<Interrupted>() {
             Ok(interrupted) => *interrupted,

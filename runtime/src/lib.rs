@@ -2,32 +2,32 @@
 //!
 //! The attribute `branched_pendulum` (feature `macros`, on by default) derives
 //! the equations of motion of a tree from its description and writes them as
-//! specialised Rust. This crate is what the written code stands on, and what
-//! brings it to life:
+//! specialised Rust code. This crate contains the traits and numbers that the code
+//! uses, integrators and analyses:
 //!
-//! - [`scalar`]: the numbers that emitted code computes with,
-//! - [`system`]: the traits that it implements, and states,
+//! - [`scalar`]: numbers with which emitted code computes,
+//! - [`system`]: traits that emitted code implements, and states,
 //! - [`integrate`]: trajectories, with error control, dense output and events,
-//! - [`approximate`]: models that are cheaper, with their errors,
+//! - [`approximate`]: cheaper models, with their errors,
 //! - [`ensemble`]: many trajectories on all cores,
-//! - [`interruption`]: computations that can be ended from outside,
+//! - [`interruption`]: computations that can be stopped from outside,
 //! - [`batch`]: accelerations of many states, in vector registers,
 //! - [`tree`]: large trees, in loops,
-//! - [`sectors`]: what identical subtrees do in phase and against each other,
-//! - [`taylor`]: the recurrences of Taylor coefficients that emitted code uses,
+//! - [`sectors`]: motion of identical subtrees in phase and against each other,
+//! - [`taylor`]: recurrences of Taylor coefficients that emitted code uses,
 //! - [`transfer_forms`]: several forms of one energy transfer,
 //! - [`analysis`]: linear modes of trees and sectors, averages, growth of deviations,
 //!   errors of truncated transfers,
-//! - [`model`]: what emitted models return, and what they refuse.
+//! - [`model`]: results and errors of emitted models.
 //!
 //! SI units throughout; angles are absolute, in radians from the downward
 //! vertical, or from the upward one in trees that stand (negative gravity).
 //!
 //! # Example
 //!
-//! A single rod, its equation of motion written by hand: what the attribute
-//! writes for trees. Released from 30°, it is back after one period, which is
-//! longer than that of small oscillations.
+//! A single rod, with its equation of motion written by hand as the attribute
+//! writes it for trees. Released from 30°, the rod returns after one period, which
+//! is longer than that of small oscillations.
 //!
 //! ```
 //! use branched_pendulum::prelude::*;
@@ -113,6 +113,7 @@ pub mod emitted;
 #[cfg(feature = "std")]
 pub mod ensemble;
 mod errors;
+pub mod friction;
 pub mod integrate;
 pub mod interruption;
 pub mod model;
@@ -129,7 +130,7 @@ pub mod transfer_forms;
 pub mod translational;
 pub mod tree;
 
-// What emitted code names, at the shortest path.
+// Names in emitted code, at the shortest path.
 pub use model::{ParameterError, Transfer, UnknownParameter};
 pub use scalar::Scalar;
 pub use sectors::{Budget, ScaleBudget, Scales, Sectors};

@@ -5,33 +5,34 @@ use alloc::string::String;
 use core::fmt;
 use core::ops::Add;
 
-/// Energy transfer W into one mode, in watts, by the part of the rest of the
-/// tree that it comes from: {H_d, K − T} and {H_d, U − V}.
+/// Energy transfer W into one mode (with energy H_d = T + V) from the rest of the tree, in watts.
+/// It is split into {H_d, K − T} from the tree's kinetic energy K and {H_d, U − V} from its
+/// potential energy U.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Transfer<T> {
-    /// Part of the kinetic energy, W_K.
+    /// Part W_K from kinetic energy.
     pub kinetic: T,
-    /// Part of the potential energy, W_P.
+    /// Part W_P from potential energy.
     pub potential: T,
 }
 
 impl<T: Add<Output = T>> Transfer<T> {
-    /// W = W_K + W_P.
+    /// Returns W = W_K + W_P.
     pub fn total(self) -> T {
         self.kinetic + self.potential
     }
 }
 
-/// A parameter that no pendulum can have.
+/// Error: a parameter has a value that is not physical.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct ParameterError {
-    /// The quantity, as in "mass of `child`".
+    /// Name of the quantity, such as "mass of `child`".
     pub what: &'static str,
     /// Value of the quantity, in SI units.
     pub value: f64,
-    /// The condition on it, as in "finite and positive".
+    /// Condition that the value violates, such as "finite and positive".
     pub requirement: &'static str,
 }
 
@@ -48,18 +49,19 @@ impl fmt::Display for ParameterError {
 
 impl core::error::Error for ParameterError {}
 
-/// A name that no parameter of a model has.
+/// Error: a model has no parameter with this name.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct UnknownParameter {
-    /// The name.
+    /// The unknown name.
     pub name: String,
-    /// The names of the parameters, in their order.
+    /// Names of all parameters of the model, in order.
     pub known: &'static [&'static str],
 }
 
 impl UnknownParameter {
-    /// No parameter of these has the name.
+    /// Creates the error that `name` is not the name of a parameter; `known` are the names of all
+    /// parameters.
     pub fn new(name: &str, known: &'static [&'static str]) -> Self {
         Self {
             name: name.into(),
@@ -81,7 +83,7 @@ impl fmt::Display for UnknownParameter {
 
 impl core::error::Error for UnknownParameter {}
 
-/// Returns a value as messages show it: with an exponent where it is far from 1.
+/// Formats a value for messages, with an exponent if it is far from 1.
 pub fn shown(value: f64) -> String {
     match value == 0.0 || (1e-5..1e16).contains(&value.abs()) || !value.is_finite() {
         true => format!("{value}"),

@@ -1,9 +1,9 @@
-//! Names of a first program, in one `use`: describe a tree, integrate it, look
-//! at its energy, compute many states and many trajectories. Everything else is
-//! named by its path.
+//! Names that a first program needs, in one `use`: to describe a tree, integrate it, evaluate its
+//! energy, and compute many states or many trajectories. All other items are imported by their
+//! paths.
 //!
-//! Where another prelude has a `State` or an `Options` as well,
-//! `use branched_pendulum::prelude::State;` beside the two says which is meant.
+//! If another prelude also has a `State` or an `Options`, add `use
+//! branched_pendulum::prelude::State;` to choose one.
 
 pub use core::ops::ControlFlow;
 

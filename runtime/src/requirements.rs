@@ -1,59 +1,60 @@
-//! Requirements on the parameters of a model: emitted constructors check them.
+//! Checks of a model's parameters, which the constructors of emitted models call.
 
 use alloc::vec::Vec;
 
 use crate::model::ParameterError;
 
-/// Passes a finite value.
+/// Checks that a parameter is finite.
 ///
 /// # Errors
-/// The error that `what` is not finite.
+/// [`ParameterError`] if `what` is infinite or NaN.
 pub fn require_finite(what: &'static str, value: f64) -> Result<(), ParameterError> {
     require(what, value, "finite", true)
 }
 
-/// Condition on gravity of a tree that hangs.
+/// Condition on the gravity of a hanging tree, for messages.
 const HANGING: &str = "finite and not negative: for a tree that stands up write `gravity = -g`";
 
-/// Condition on gravity of a tree that stands.
+/// Condition on the gravity of an upright tree, for messages.
 const STANDING: &str = "finite and not positive: for a tree that hangs write `gravity = g`";
 
-/// Passes finite gravity of a tree that hangs.
+/// Checks the gravity of a hanging tree, which must be finite and at least zero.
 ///
 /// # Errors
-/// The error that `what` is negative or not finite.
+/// [`ParameterError`] if `what` is negative, infinite or NaN.
 pub fn require_downward(what: &'static str, value: f64) -> Result<(), ParameterError> {
     require(what, value, HANGING, value >= 0.0)
 }
 
-/// Passes finite gravity of a tree that stands.
+/// Checks the gravity of an upright tree, which must be finite and at most zero.
 ///
 /// # Errors
-/// The error that `what` is positive or not finite.
+/// [`ParameterError`] if `what` is positive, infinite or NaN.
 pub fn require_upward(what: &'static str, value: f64) -> Result<(), ParameterError> {
     require(what, value, STANDING, value <= 0.0)
 }
 
-/// Passes a finite value that is not negative.
+/// Checks that a parameter is finite and at least zero.
 ///
 /// # Errors
-/// The error that `what` is negative or not finite.
+/// [`ParameterError`] if `what` is negative, infinite or NaN.
 pub fn require_non_negative(what: &'static str, value: f64) -> Result<(), ParameterError> {
     require(what, value, "finite and not negative", value >= 0.0)
 }
 
-/// Passes a finite positive value.
+/// Checks that a parameter is finite and positive.
 ///
 /// # Errors
-/// The error that `what` is not positive or not finite.
+/// [`ParameterError`] if `what` is not positive and finite.
 pub fn require_positive(what: &'static str, value: f64) -> Result<(), ParameterError> {
     require(what, value, "finite and positive", value > 0.0)
 }
 
-/// Passes 0 and a value of a magnitude between two, which the requirement states in words.
+/// Checks that a parameter is 0, or has a magnitude between two limits. `requirement` states this
+/// condition in words.
 ///
 /// # Errors
-/// The error that `what` has another one.
+/// [`ParameterError`] if `what` has another magnitude.
 pub fn require_magnitude(
     what: &'static str,
     value: f64,
@@ -80,28 +81,28 @@ fn require(
     })
 }
 
-/// A link as [`require_regular`] sees it. SI units.
+/// Mass properties of a link, in SI units, for [`require_regular`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LinkBody {
-    /// Name of the quantity that is zero where the link turns without energy, for the
-    /// message.
+    /// Quantity to name in the message if the link can turn without kinetic energy.
     pub what: &'static str,
-    /// Index of the parent, which stands before the link.
+    /// Index of the parent, which comes before the link.
     pub parent: Option<usize>,
-    /// Mass.
+    /// Mass, in kg.
     pub mass: f64,
-    /// Moment of inertia about the centre of mass.
+    /// Moment of inertia about the centre of mass, in kg m².
     pub inertia: f64,
-    /// Centre of mass from the link's pivot, along and across.
+    /// Centre of mass relative to the link's pivot, along and across the link, in m.
     pub com: [f64; 2],
-    /// Pivot on the parent from the parent's pivot, along and across.
+    /// Pivot relative to the parent's pivot, along and across the parent, in m.
     pub pivot: [f64; 2],
 }
 
-/// Passes a tree whose mass matrix is regular for all angles.
+/// Checks that the mass matrix of a tree is regular at all angles.
 ///
 /// # Errors
-/// The error that the moment of inertia of a [free link](free_link) is zero.
+/// [`ParameterError`] if a link can turn without kinetic energy ([`free_link`]): its moment of inertia
+/// is zero.
 pub fn require_regular(links: &[LinkBody], negligible: [f64; 3]) -> Result<(), ParameterError> {
     match free_link(links, negligible).and_then(|index| links.get(index)) {
         None => Ok(()),
@@ -113,12 +114,12 @@ pub fn require_regular(links: &[LinkBody], negligible: [f64; 3]) -> Result<(), P
     }
 }
 
-/// Returns the last link that can turn about its resting pivot without kinetic energy in
-/// some configuration, if there is one: the mass matrix is singular there.
+/// Returns the last link that, in some configuration, can turn about its pivot at rest without
+/// kinetic energy, if there is one. The mass matrix is singular in that configuration.
 ///
-/// Such a link has no inertia, no mass off its pivot, and every child hangs from the
-/// pivot or yields: lets its own pivot move without energy in some configuration.
-/// A mass, a length and a moment of inertia below the `negligible` ones count as zero.
+/// Such a link has no inertia and no mass off its pivot, and each of its children hangs from the
+/// link's pivot or can yield: the child's pivot can move without kinetic energy in some
+/// configuration. Masses, lengths and moments of inertia below those in `negligible` count as zero.
 /// O(links).
 pub fn free_link(links: &[LinkBody], negligible: [f64; 3]) -> Option<usize> {
     let [least_mass, least_length, least_inertia] = negligible;
@@ -189,7 +190,7 @@ mod tests {
         assert!(check(&[root, body(Some(0), 0.0, 1e-119, 0.1, 1.0)]).is_ok());
     }
 
-    /// Two rods without mass and one bob: in line, one velocity has no energy.
+    /// Checks two massless rods with one bob: if the rods are in line, one velocity has no energy.
     #[test]
     fn a_bob_on_two_massless_rods_is_refused() {
         let rods = [

@@ -1,31 +1,32 @@
 //! Spring-dampers: torsion springs and friction between links that are not parent and child.
 //!
-//! Each acts on the difference of two links' angles: φ = θ_a − θ_b. The torque on the first link
-//! is −κ (φ − ρ) − (c + C/s + q s) φ̇ with the speed s = √(φ̇² + ε²), and that on the second one
-//! its opposite. The energy is ½ κ (φ − ρ)². The mass matrix knows nothing of them.
+//! Each depends on the difference of two links' angles: φ = θ_a − θ_b. The torque on the first link
+//! is −κ (φ − ρ) − (c + C/s + q s) φ̇ with the speed s = √(φ̇² + ε²); that on the second link is
+//! its opposite. The energy is ½ κ (φ − ρ)². The mass matrix does not contain them.
 
 use alloc::vec::Vec;
 
+use crate::friction::FrictionLaw;
 use crate::scalar::Scalar;
 use crate::simd::Simd;
 
 /// A torsion spring and friction between two links, in SI units.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SpringDamper<T> {
-    /// Numbers of the two links.
+    /// Indices of the two links.
     pub links: [usize; 2],
-    /// Stiffness κ of the spring.
+    /// Stiffness κ of the torsion spring, in N m.
     pub spring: T,
-    /// Difference ρ of the angles at which it is at rest.
+    /// Difference ρ of the angles at which the spring is at rest, in rad.
     pub rest: T,
-    /// Viscous friction c.
+    /// Coefficient c of viscous friction, in N m s.
     pub friction: T,
-    /// C, q and ε of friction that is not viscous, where there is some. The width ε is above zero.
-    pub law: Option<[T; 3]>,
+    /// Law of non-viscous friction, if there is any.
+    pub law: Option<FrictionLaw<T>>,
 }
 
 impl<T: Scalar> SpringDamper<T> {
-    /// Returns it on other scalars.
+    /// Converts the spring-damper to another scalar.
     #[must_use]
     pub fn map<S>(&self, convert: impl Fn(T) -> S) -> SpringDamper<S> {
         SpringDamper {
@@ -37,20 +38,21 @@ impl<T: Scalar> SpringDamper<T> {
         }
     }
 
-    /// Energy of the spring at a difference of the angles.
+    /// Returns the energy (J) of the spring, given the difference of the two angles (rad).
     #[inline(always)]
     fn energy(&self, difference: T) -> T {
         let strain = difference - self.rest;
         T::from_f64(0.5) * self.spring * strain * strain
     }
 
-    /// Torque of the spring that opposes it.
+    /// Returns the torque (N m) with which the spring opposes the difference of the angles (rad).
     #[inline(always)]
     fn pull(&self, difference: T) -> T {
         self.spring * (difference - self.rest)
     }
 
-    /// Torque on the first link, or slope of the energy, at a difference of angles or of rates.
+    /// Returns one quantity for the first link, a torque or the derivative of the energy, given the
+    /// difference of angles or of velocities.
     #[inline(always)]
     fn summand(&self, summand: Summand, difference: T) -> T {
         match summand {
@@ -60,31 +62,31 @@ impl<T: Scalar> SpringDamper<T> {
         }
     }
 
-    /// Torque of friction that opposes a difference of the rates.
+    /// Returns the torque (N m) with which friction opposes the difference `rate` of the angular
+    /// velocities (rad/s).
     #[inline(always)]
     fn braking(&self, rate: T) -> T {
         let viscous = self.friction * rate;
-        let Some([coulomb, quadratic, width]) = self.law else {
-            return viscous;
-        };
-        let speed = (rate * rate + width * width).sqrt();
-        viscous + (coulomb / speed + quadratic * speed) * rate
+        match &self.law {
+            Some(law) => viscous + law.torque(rate),
+            None => viscous,
+        }
     }
 }
 
-/// What is added up of spring-dampers. Said by name: closures are functions of their own where
-/// numbers are vector registers.
+/// Quantity that is summed over all spring-dampers. This is an enum instead of a closure, because
+/// each closure would be compiled as a separate function for vector registers.
 #[derive(Clone, Copy, Debug)]
 enum Summand {
-    /// Derivative of the springs' energy by the first angle.
+    /// Derivative of the springs' energy by the angle of the first link.
     SpringSlope,
     /// Torque of the springs on the first link.
     SpringTorque,
-    /// Torque of friction on it.
+    /// Torque of friction on the first link.
     FrictionTorque,
 }
 
-/// Spring-dampers of the same constants side by side.
+/// Run of consecutive spring-dampers with the same constants.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct SpringDamperRun<T> {
     first: SpringDamper<T>,
@@ -92,14 +94,15 @@ struct SpringDamperRun<T> {
 }
 
 impl<T: Scalar> SpringDamperRun<T> {
-    /// Returns true if all links are among so many, and none is on both sides or there twice.
+    /// Returns true if all links of the run exist in a tree of `links` links, and none occurs
+    /// twice.
     fn fits(&self, links: usize) -> bool {
         let [a, b] = self.first.links;
         let ends = a.max(b).checked_add(self.count);
         a.abs_diff(b) >= self.count && ends.is_some_and(|end| end <= links)
     }
 
-    /// Each by itself.
+    /// Returns the spring-dampers of the run one by one.
     fn each(self) -> impl Iterator<Item = SpringDamper<T>> {
         let [a, b] = self.first.links;
         (0..self.count).map(move |place| SpringDamper {
@@ -108,7 +111,8 @@ impl<T: Scalar> SpringDamperRun<T> {
         })
     }
 
-    /// The numbers of the links on both sides; none of too few numbers.
+    /// Selects from `numbers` (one per link) those of the first and those of the second links of
+    /// all pairs. Both slices are empty if there are too few numbers.
     #[inline(always)]
     fn sides<'a>(&self, numbers: &'a [T]) -> [&'a [T]; 2] {
         let [a, b] = self.first.links;
@@ -116,7 +120,8 @@ impl<T: Scalar> SpringDamperRun<T> {
         [own, numbers.get(b..b + self.count).unwrap_or_default()]
     }
 
-    /// The differences of numbers of the links; none of too few numbers.
+    /// Returns the differences between the numbers of the first and the second links of the run;
+    /// empty if there are too few numbers.
     #[inline(always)]
     fn differences(&self, numbers: &[T]) -> impl Iterator<Item = T> {
         let [a, b] = self.sides(numbers);
@@ -128,7 +133,7 @@ impl<T: Scalar> SpringDamperRun<T> {
 ///
 /// # Examples
 ///
-/// Two links that a spring and a damper hold together:
+/// Two links that are connected by a spring and a damper:
 ///
 /// ```
 /// use branched_pendulum::spring_dampers::{SpringDamper, SpringDampers};
@@ -150,7 +155,7 @@ pub struct SpringDampers<T> {
     runs: Vec<SpringDamperRun<T>>,
 }
 
-/// None between no links.
+/// No spring-dampers, for zero links.
 impl<T> Default for SpringDampers<T> {
     fn default() -> Self {
         Self {
@@ -161,17 +166,17 @@ impl<T> Default for SpringDampers<T> {
 }
 
 impl<T: Scalar> SpringDampers<T> {
-    /// Returns those of a tree of so many links; none for one between links that there are not,
-    /// and for one between a link and itself.
+    /// Creates the spring-dampers of a tree of `links` links. Returns `None` if a link does not
+    /// exist, or if a spring-damper connects a link with itself.
     #[must_use]
     pub fn new(links: usize, list: Vec<SpringDamper<T>>) -> Option<Self> {
         Self::of_runs(links, list.into_iter().map(|own| (own, 1)))
     }
 
-    /// Returns those of a tree of so many links where spring-dampers of the same constants stand
-    /// side by side: of each run the first one and their number, each acting between the links
-    /// behind those of the one before. Memory is that of the runs. None for links that there are
-    /// not, and where a link is in a run twice.
+    /// Creates the spring-dampers of a tree with this number of links from runs of identical ones:
+    /// the first of each run, and their number. In each spring-damper of a run both link indices
+    /// are larger by one than in the one before. The memory is proportional to the number of runs.
+    /// Returns `None` for links that do not exist, and if a link occurs twice in a run.
     ///
     /// # Examples
     ///
@@ -199,8 +204,8 @@ impl<T: Scalar> SpringDampers<T> {
         fit.then_some(Self { links, runs })
     }
 
-    /// Returns them on other scalars: `convert` should change the type of their constants and
-    /// not their value.
+    /// Converts the spring-dampers to another scalar: `convert` should change only the type of
+    /// their constants.
     #[must_use]
     pub fn cast<S: Scalar>(&self, convert: impl Fn(T) -> S) -> SpringDampers<S> {
         let runs = self.runs.iter().map(|run| SpringDamperRun {
@@ -213,32 +218,32 @@ impl<T: Scalar> SpringDampers<T> {
         }
     }
 
-    /// Returns true if there is none.
+    /// Returns true if there are no spring-dampers.
     #[must_use]
     #[inline(always)]
     pub fn is_empty(&self) -> bool {
         self.runs.is_empty()
     }
 
-    /// Number of links of the tree.
+    /// Returns the number of links of the tree.
     #[must_use]
     pub fn links(&self) -> usize {
         self.links
     }
 
-    /// Returns them one by one.
+    /// Returns the spring-dampers one by one.
     pub fn iter(&self) -> impl Iterator<Item = SpringDamper<T>> {
         self.runs.iter().flat_map(|run| run.each())
     }
 
-    /// Returns the first of each run.
+    /// Returns the first spring-damper of each run.
     pub(crate) fn first_of_runs(&self) -> impl Iterator<Item = &SpringDamper<T>> {
         self.runs.iter().map(|run| &run.first)
     }
 
     /// Writes to `torques` all torques (N m) on the links at their angles (rad) and angular
-    /// velocities (rad/s): those from `outside`, where there are any, and those between links. NaN
-    /// for slices of another length than there are links.
+    /// velocities (rad/s): the external torques in `outside`, if given, plus the torques between
+    /// links. NaN if a slice does not have one number per link.
     #[inline(always)]
     pub fn write_torques(&self, outside: Option<&[T]>, given: [&[T]; 2], torques: &mut [T]) {
         match outside {
@@ -252,20 +257,21 @@ impl<T: Scalar> SpringDampers<T> {
     }
 
     /// Adds the torques (N m) on all links at their angles (rad) and angular velocities (rad/s).
-    /// NaN for slices of another length than there are links.
+    /// NaN if a slice does not have one number per link.
     #[inline(always)]
     pub fn add_torques(&self, [theta, omega]: [&[T]; 2], torques: &mut [T]) {
         self.add(theta, torques, Summand::SpringTorque);
         self.add_friction(omega, torques);
     }
 
-    /// Adds the derivatives (N m) of the springs' energy by the angles; NaN likewise.
+    /// Adds the derivatives (N m) of the springs' energy by the angles; NaN if a slice does not
+    /// have one number per link.
     #[inline(always)]
     pub fn add_spring_slopes(&self, theta: &[T], slopes: &mut [T]) {
         self.add(theta, slopes, Summand::SpringSlope);
     }
 
-    /// Adds the torques of friction; NaN likewise.
+    /// Adds the torques of friction (N m); NaN if a slice does not have one number per link.
     #[inline(always)]
     pub fn add_friction(&self, omega: &[T], torques: &mut [T]) {
         self.add(omega, torques, Summand::FrictionTorque);
@@ -292,8 +298,9 @@ impl<T: Scalar> SpringDampers<T> {
         }
     }
 
-    /// Adds the torques on the links of states in the lanes of `V`, in the order in which
-    /// [`add_torques`](Self::add_torques) does: a state has the bits that it has alone.
+    /// Adds the torques on the links for several states, one in each lane of `V`. The sums have the
+    /// same order as in [`add_torques`](Self::add_torques), so that a state gets the same bits as
+    /// if it were computed alone.
     #[inline(always)]
     pub(crate) fn add_torques_in_registers<V: Simd<T>>(
         &self,
@@ -312,7 +319,7 @@ impl<T: Scalar> SpringDampers<T> {
                     let [a, b] = [a + place, b + place];
                     let difference = match summand {
                         Summand::FrictionTorque => omega(a) - omega(b),
-                        _ => theta(a) - theta(b),
+                        Summand::SpringSlope | Summand::SpringTorque => theta(a) - theta(b),
                     };
                     let torque = own.summand(summand, difference);
                     if let Ok([own, other]) = torques.get_disjoint_mut([a, b]) {
@@ -324,15 +331,14 @@ impl<T: Scalar> SpringDampers<T> {
         }
     }
 
-    /// Energy (J) of the springs; NaN for another number of angles than there are links.
+    /// Returns the energy (J) of the springs; NaN if there is not one angle per link.
     #[must_use]
     pub fn energy(&self, theta: &[T]) -> T {
         self.sum(theta, |own, difference| own.energy(difference))
     }
 
-    /// Returns the energies (J) of springs whose constants are the same, with the numbers of the
-    /// first two links that they act between; nothing for another number of angles than there are
-    /// links.
+    /// Returns the energies (J) of the springs of each run, with the indices of the first two links
+    /// that the run connects; empty if there is not one angle per link.
     pub fn energies(&self, theta: &[T]) -> impl Iterator<Item = ([usize; 2], T)> {
         let fits = theta.len() == self.links;
         let runs = self.runs.iter().filter(move |_| fits);
@@ -346,7 +352,8 @@ impl<T: Scalar> SpringDampers<T> {
         })
     }
 
-    /// Power (W) of the friction, never positive; NaN likewise.
+    /// Returns the power (W) of friction, which is never positive; NaN if there is not one rate per
+    /// link.
     #[must_use]
     pub fn power(&self, omega: &[T]) -> T {
         self.sum(omega, |own, rate| -(own.braking(rate) * rate))

@@ -1,4 +1,4 @@
-//! Several forms of the same energy transfers W, to be compared.
+//! Several forms of the same energy transfers W, for comparison.
 
 use core::fmt;
 
@@ -6,21 +6,21 @@ use crate::model::Transfer;
 use crate::scalar::Scalar;
 use crate::system::SymmetricPendulum;
 
-/// A form of W: what it takes for small, and the highest order that it keeps.
+/// A form of W: the quantities that it takes as small, and the highest order that it keeps.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TransferForm {
-    /// Orders of the angles of the differences are counted; their momenta stay
-    /// whole. Order 1 is the published form.
+    /// Truncated at an order in the difference angles, exact in the momenta. Order 1 is the form
+    /// that was published.
     Angle(u32),
-    /// Orders of the amplitude are counted: angles and momenta of the
-    /// differences alike.
+    /// Truncated at an order in the amplitude: in the angles and momenta of the differences
+    /// together.
     Amplitude(u32),
-    /// Nothing is small.
+    /// Without truncation.
     Exact,
 }
 
 impl TransferForm {
-    /// The order that is kept; none where nothing is left out.
+    /// Returns the order that is kept; `None` without truncation.
     #[must_use]
     pub fn order(self) -> Option<u32> {
         match self {
@@ -40,21 +40,21 @@ impl fmt::Display for TransferForm {
     }
 }
 
-/// Differences that truncated forms of W take for small.
+/// A sector whose coordinates truncated forms of W take as small.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct SmallSector {
-    /// Name of the sector: that of its uppermost difference.
+    /// Name of the sector, which is the name of its uppermost difference coordinate.
     pub name: &'static str,
-    /// Indices of its symmetric coordinates, from the root outwards.
+    /// Indices of the sector's symmetric coordinates, from the root outwards.
     pub coordinates: &'static [usize],
 }
 
-/// A model that has W in several forms, the exact one among them.
+/// A model that has W in several forms, including the exact one.
 ///
-/// Emitted where a description asks for truncated forms beside the exact one:
-/// `transfer(amplitude = 2, exact)`, or `budget(canonical, amplitude = 2)`; of a
-/// description that asks for both, the budget's. What is made of it:
-/// `analysis::truncation`, the error of each form against amplitude.
+/// It is emitted if a description requests truncated forms and the exact one: `transfer(amplitude =
+/// 2, exact)`, or `budget(canonical, amplitude = 2)`. If it requests both, these are the forms of
+/// the budget. `analysis::truncation` computes the error of each form as a function of the
+/// amplitude.
 ///
 /// # Examples
 ///
@@ -89,23 +89,22 @@ pub struct SmallSector {
     note = "a model has them with `emit(transfer(amplitude = 2, exact))` and its like, or `emit(budget(canonical, amplitude = 2))`"
 )]
 pub trait TransferForms<T: Scalar>: SymmetricPendulum<T> {
-    /// The forms: angle orders, then amplitude orders, both from the lowest, and
+    /// Forms: angle orders, then amplitude orders, both in increasing order, and
     /// [`TransferForm::Exact`] last.
     const TRANSFER_FORMS: &'static [TransferForm];
 
-    /// Names of the sectors that W flows into.
+    /// Names of the sectors that receive W.
     const RECEIVERS: &'static [&'static str];
 
-    /// The differences that the truncated forms take for small.
+    /// Sectors that the truncated forms take as small.
     const SMALL_SECTORS: &'static [SmallSector];
 
-    /// Writes W (in W) into each of [`RECEIVERS`](Self::RECEIVERS) by the form
-    /// number `form` of [`TRANSFER_FORMS`](Self::TRANSFER_FORMS), at symmetric
-    /// coordinates (rad) and their momenta (kg m²/s).
+    /// Writes W (in W) into each of [`RECEIVERS`](Self::RECEIVERS) by the form with the index
+    /// `form` in [`TRANSFER_FORMS`](Self::TRANSFER_FORMS), at symmetric coordinates (rad) and their
+    /// momenta (kg m²/s).
     ///
-    /// A form that there is not, and slices of other lengths than
-    /// the number of links and that of the receivers, are
-    /// answered with NaN.
+    /// The results are NaN for a form that does not exist, and for slices whose lengths are not the
+    /// number of links and that of the receivers.
     fn transfers_into(
         &self,
         form: usize,
@@ -114,8 +113,7 @@ pub trait TransferForms<T: Scalar>: SymmetricPendulum<T> {
         transfers: &mut [Transfer<T>],
     );
 
-    /// Writes the momenta (kg m²/s) that belong to symmetric coordinates (rad)
-    /// with the velocities `rates` (rad/s); NaN for slices of other lengths than
-    /// the number of links.
+    /// Writes the momenta (kg m²/s) that belong to symmetric coordinates (rad) with the velocities
+    /// `rates` (rad/s); NaN if a slice does not have one number per link.
     fn symmetric_momenta_into(&self, coordinates: &[T], rates: &[T], momenta: &mut [T]);
 }

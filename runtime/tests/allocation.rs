@@ -11,6 +11,7 @@ use std::num::NonZeroUsize;
 
 use branched_pendulum::TaylorPendulum;
 use branched_pendulum::approximate::{Approximation, ForcedApproximation, Linear};
+use branched_pendulum::friction::FrictionLaw;
 use branched_pendulum::integrate::{Crossing, Event, Frames, Solver};
 use branched_pendulum::integrate::{LaneMethod, Projected};
 use branched_pendulum::prelude::*;
@@ -18,7 +19,7 @@ use branched_pendulum::sectors::{Sector, SectorCoordinate};
 use branched_pendulum::system::{LinkName, OdeFn, TaylorOde, Workspace};
 use branched_pendulum::taylor::Quad;
 use branched_pendulum::transfer::{
-    EnergyDefinition, Given, NonConservative, Order, RigidLink, SectorBudget, SymmetricTree,
+    EnergyDefinition, NonConservative, Order, RigidLink, SectorBudget, StateInput, SymmetricTree,
 };
 use counting::allocations;
 
@@ -331,7 +332,7 @@ fn no_transfer_allocates() {
         rest: 0.0,
         friction: 1e-3,
         drag: 1e-3,
-        laws: [1e-3, 0.0, 0.1, 0.0, 1.0],
+        laws: [[1e-3, 0.0, 0.1], [0.0, 0.0, 1.0]].map(FrictionLaw::of_constants),
     };
     let coordinate = |name: &str, weights: &[(usize, f64)]| {
         SectorCoordinate::new(name.to_owned(), weights.to_vec())
@@ -349,7 +350,7 @@ fn no_transfer_allocates() {
     ];
     let links = [link(None), link(Some(0)), link(Some(0))];
     let tree = SymmetricTree::<f64>::new(&links, 9.81, &sectors).unwrap();
-    let given = Given::Momenta {
+    let given = StateInput::Momenta {
         coordinates: &[0.4, 0.3, 0.1],
         momenta: &[0.02, -0.01, 0.01],
     };

@@ -1,6 +1,8 @@
 //! The fixture scenes, compiled. Their files under `fixtures/scenes` are
 //! what snapshots show, so that what is read is what is run.
 
+#[path = "../fixtures/scenes/blades.rs"]
+pub mod blades;
 #[path = "../fixtures/scenes/branch.rs"]
 pub mod branch;
 #[path = "../fixtures/scenes/chain.rs"]

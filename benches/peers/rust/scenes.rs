@@ -1,4 +1,4 @@
-//! Trees of `scenes.py`, which `cargo branched-pendulum expand` writes out.
+//! Trees of `scenes.py`; `cargo branched-pendulum expand` generates their code.
 
 use branched_pendulum::prelude::*;
 

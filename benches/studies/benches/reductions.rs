@@ -1,17 +1,15 @@
-//! `cargo bench --bench reductions`: what smaller models of the same motion save.
+//! `cargo bench --bench reductions`: savings by smaller models of the same motion.
 //!
-//! - One evaluation of a tree of 2²⁰ − 1 links whose copies move in phase: a chain of
-//!   twenty.
-//! - Growth G of the antiphase mode of the paper's pendulum within 10 s of a release from
-//!   each of 1,701 angles from 5° to 90°, G² the ratio of its energies at the end and at
-//!   the start: from small differences beside the in-phase motion, from trajectories of
-//!   the whole tree in absolute angles that start with a difference, and from those in
-//!   symmetric coordinates, in which a difference may be as small as one likes. For each
-//!   goal of accuracy the cheapest setting of each way counts: method, tolerance, and in
-//!   absolute angles the size of the differences at the start.
+//! - One evaluation of a tree of 2²⁰ − 1 links whose copies move in phase: a chain of twenty.
+//! - Growth G of the antiphase mode of the paper's pendulum within 10 s of a release from each of
+//!   1,701 angles from 5° to 90°, where G² is the ratio of its energies at the end and at the
+//!   start. Three ways are compared: small differences along the in-phase motion; trajectories of
+//!   the whole tree in absolute angles that start with a difference; and trajectories in symmetric
+//!   coordinates, in which a difference may be arbitrarily small. For each accuracy the cheapest
+//!   setting of each way counts: method, tolerance, and in absolute angles the size of the initial
+//!   differences.
 //!
-//! All ways run in lanes on one thread and take turns, and the least of their times
-//! counts.
+//! All ways run in lanes on one thread and take turns, and the shortest of their times counts.
 
 use std::hint::black_box;
 use std::num::NonZeroUsize;
@@ -23,7 +21,7 @@ use branched_pendulum::system::{LaneOde, TransverseOde};
 use branched_pendulum::{Pendulum, Scalar, Transverse};
 use branched_pendulum_studies::scenes::BranchedDouble;
 
-/// 2²⁰ − 1 rods in phase.
+/// A full binary tree of 2²⁰ − 1 rods, with all copies in phase.
 #[branched_pendulum(
     gravity = 9.80665,
     tree: generations(count = 20, branching = 2, shape = rod, mass = 0.12, length = 0.3,
@@ -32,7 +30,7 @@ use branched_pendulum_studies::scenes::BranchedDouble;
 )]
 struct Generations;
 
-/// The paper's pendulum, its children in phase.
+/// The paper's pendulum with its children in phase.
 #[branched_pendulum(
     gravity = 9.80665,
     parent(mass = 0.12880, com = 0.084, inertia = 1.88e-3, joint = 0.27) [
@@ -43,22 +41,23 @@ struct Generations;
 )]
 struct InPhase;
 
-/// Rounds of turns.
+/// Number of turns.
 const ROUNDS: usize = 7;
 
-/// Angles of release.
+/// Number of release angles.
 const ANGLES: u32 = 1701;
 
-/// Where errors of ln G are judged: angles up to a limit in degrees, and the share of them
-/// whose errors shall stay below a goal.
+/// Rule by which errors of ln G are judged: the largest angle of release (in degrees), and the
+/// fraction of releases whose errors must stay below a limit.
 struct Judgement {
     limit: f64,
     share: f64,
     goals: &'static [f64],
 }
 
-/// Regular motions, and the whole curve: above 46° most motions in phase are chaotic, and G is
-/// up to 1e29. Each fifth angle is left out there, where no tolerance finds more digits.
+/// Rules for the regular motions, and for the whole curve. Above 46° most in-phase motions are
+/// chaotic, and G reaches 1e29; a fifth of the angles is left out there, since no tolerance gives
+/// correct digits.
 const JUDGEMENTS: [Judgement; 2] = [
     Judgement {
         limit: 42.0,
@@ -72,12 +71,12 @@ const JUDGEMENTS: [Judgement; 2] = [
     },
 ];
 
-/// Degrees of each release.
+/// Returns the release angles, in degrees.
 fn degrees() -> impl Iterator<Item = f64> {
     (0..ANGLES).map(|i| 5.0 + 0.05 * f64::from(i))
 }
 
-/// The whole pendulum in its symmetric coordinates.
+/// The whole pendulum, described in symmetric coordinates.
 struct Symmetric<T>(BranchedDouble<T>);
 
 impl<T: Scalar> Ode<T> for Symmetric<T> {
@@ -110,42 +109,44 @@ impl<T: Scalar> LaneOde<T> for Symmetric<T> {
     }
 }
 
-/// A way to the curve.
+/// A method of computing the growth curve.
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum Way {
-    /// Small differences beside the motion in phase.
+enum GrowthMethod {
+    /// Small differences along the in-phase motion.
     Small,
-    /// The whole tree with differences of a size at the start.
+    /// The whole tree in absolute angles, with initial differences of this size.
     Absolute(f64),
     /// The whole tree in symmetric coordinates.
     Symmetric,
 }
 
-/// Size of a difference where it has a component of its own: even grown by 1e29 it acts back
-/// less than rounding does, and has no part in the choice of steps.
+/// Size of a difference that is a separate component of the state: even after growing by 1e29 its
+/// effect on the other components is below rounding errors, and it does not affect the choice of
+/// steps.
 const TINY: f64 = 1e-100;
 
-/// Sizes in absolute angles: smaller ones lose their digits, larger ones act back.
+/// Sizes of initial differences in absolute angles: with smaller ones the difference loses its
+/// digits, with larger ones it acts back on the in-phase motion.
 const SIZES: [f64; 10] = [1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11];
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Order {
     Eight,
     Nine,
-    /// By the tolerance; in absolute angles alone.
+    /// Taylor series whose order depends on the tolerance; only in absolute angles.
     Taylor,
 }
 
-/// A way with its method.
+/// A method of computing the growth curve, with its integrator and tolerance.
 #[derive(Clone, Copy, Debug)]
 struct Setting {
-    way: Way,
+    way: GrowthMethod,
     order: Order,
     tolerance: f64,
 }
 
 impl Setting {
-    /// ln G of every release; NaN where a trajectory fails.
+    /// Returns ln G of every release; NaN if a trajectory fails.
     fn curve(self) -> Vec<f64> {
         let model = InPhase::new();
         let energy = |state: &State<f64>| {
@@ -153,7 +154,7 @@ impl Setting {
                 return f64::NAN;
             };
             let [difference, rate] = match self.way {
-                Way::Absolute(_) => [0.5 * (a - b), 0.5 * (da - db)],
+                GrowthMethod::Absolute(_) => [0.5 * (a - b), 0.5 * (da - db)],
                 _ => [b, db],
             };
             model.transverse_energy_of(0, &[0.0; 2], &[difference], &[rate])
@@ -163,19 +164,19 @@ impl Setting {
             State::at_rest(
                 0.0,
                 &match self.way {
-                    Way::Absolute(size) => [angle, size, -size],
+                    GrowthMethod::Absolute(size) => [angle, size, -size],
                     _ => [angle, 0.0, TINY],
                 },
             )
         };
         let starts: Vec<State<f64>> = degrees().map(start).collect();
         let ends = match self.way {
-            Way::Small => {
+            GrowthMethod::Small => {
                 let system = TransverseOde::new(InPhase::new(), 0).expect("one pair of copies");
                 self.by_pairs(&system, &starts)
             }
-            Way::Symmetric => self.by_pairs(&Symmetric(BranchedDouble::new()), &starts),
-            Way::Absolute(_) => {
+            GrowthMethod::Symmetric => self.by_pairs(&Symmetric(BranchedDouble::new()), &starts),
+            GrowthMethod::Absolute(_) => {
                 let system = AbsoluteAngles(BranchedDouble::new());
                 match self.order {
                     Order::Taylor => ends(&Taylor::new(self.options()), &system, &starts),
@@ -215,7 +216,7 @@ where
     ends.into_iter().map(|end| Some(end.ok()?.state)).collect()
 }
 
-/// The error that the share of the judged angles stays below.
+/// Returns the error below which the required fraction of the judged releases stays.
 fn error(found: &[f64], exact: &[f64], judgement: &Judgement) -> f64 {
     let pairs = found.iter().zip(exact).zip(degrees());
     let judged = pairs.filter(|(_, angle)| *angle <= judgement.limit);
@@ -224,19 +225,24 @@ fn error(found: &[f64], exact: &[f64], judgement: &Judgement) -> f64 {
     errors[(errors.len() as f64 * judgement.share) as usize]
 }
 
-/// The least time of some runs.
+/// Returns the shortest of the times of several runs.
 fn least_time(setting: Setting) -> Duration {
     let times = (0..3).map(|_| time_of(&mut || drop(black_box(setting.curve()))));
     times.min().unwrap_or(Duration::MAX)
 }
 
-/// The cheapest setting of some ways that meets a goal: of each way and method the first
-/// that does. Without one the nearest error.
-fn cheapest(ways: &[Way], exact: &[f64], judgement: &Judgement, goal: f64) -> Result<Setting, f64> {
+/// Returns the cheapest setting that meets a goal, comparing the first sufficient setting of each
+/// method and integrator. If none meets it, returns the smallest error.
+fn cheapest(
+    ways: &[GrowthMethod],
+    exact: &[f64],
+    judgement: &Judgement,
+    goal: f64,
+) -> Result<Setting, f64> {
     let (mut best, mut nearest) = (None, f64::INFINITY);
     for &way in ways {
         for order in [Order::Eight, Order::Nine, Order::Taylor] {
-            if order == Order::Taylor && !matches!(way, Way::Absolute(_)) {
+            if order == Order::Taylor && !matches!(way, GrowthMethod::Absolute(_)) {
                 continue;
             }
             for halves in 6..29 {
@@ -266,7 +272,7 @@ fn time_of(pass: &mut dyn FnMut()) -> Duration {
     clock.elapsed()
 }
 
-/// Time of one evaluation of the chain, s.
+/// Returns the time of one evaluation of the chain, in s.
 fn evaluation() -> f64 {
     const STATES: usize = 1000;
     let model = Generations::new();
@@ -293,7 +299,7 @@ fn main() {
         1e9 * evaluation()
     );
     let reference = Setting {
-        way: Way::Small,
+        way: GrowthMethod::Small,
         order: Order::Nine,
         tolerance: 1e-14,
     };
@@ -313,12 +319,15 @@ fn main() {
     }
 }
 
-/// Prints what the three ways to a goal cost, and the cheapest settings.
+/// Prints the costs of the three ways for a goal, and the cheapest settings.
 fn compare(exact: &[f64], judgement: &Judgement, goal: f64) {
     let ways = [
-        ("small differences", vec![Way::Small]),
-        ("absolute angles", SIZES.map(Way::Absolute).to_vec()),
-        ("symmetric coordinates", vec![Way::Symmetric]),
+        ("small differences", vec![GrowthMethod::Small]),
+        (
+            "absolute angles",
+            SIZES.map(GrowthMethod::Absolute).to_vec(),
+        ),
+        ("symmetric coordinates", vec![GrowthMethod::Symmetric]),
     ];
     let found = ways.map(|(name, ways)| (name, cheapest(&ways, exact, judgement, goal)));
     let mut times = [Duration::MAX; 3];

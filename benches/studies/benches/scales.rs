@@ -1,9 +1,9 @@
-//! `cargo bench --bench scales`: cost of budgets by scale in evaluations of the
-//! accelerations of the same tree.
+//! `cargo bench --bench scales`: cost of energy budgets by scale, as multiples of the cost of an
+//! evaluation of the accelerations of the same tree.
 //!
-//! Binary trees of rods, one state, one thread. The two take turns, and the least of
-//! their times counts. The last column is the cost for each link and scale: it stays
-//! the same where the cost grows as n log n.
+//! Binary trees of rods, one state, one thread. Budget and accelerations are timed alternately, and
+//! the shortest time of each counts. The last column is the cost per link and scale: it is constant
+//! if the cost grows as n log n.
 
 use std::hint::black_box;
 use std::num::NonZeroUsize;
@@ -47,7 +47,7 @@ trees!(
     Links131071 17
 );
 
-/// Least time of a pass, after so many rounds that it is one.
+/// A timed function, with the shortest time of its passes.
 struct Case<'a> {
     pass: Box<dyn FnMut() + 'a>,
     least: Duration,

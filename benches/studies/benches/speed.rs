@@ -1,8 +1,8 @@
-//! `cargo bench`: the first figures to look at after a change, in a few seconds.
-//! `evaluation-speed` and `integration-speed` measure in full.
+//! `cargo bench`: quick measurement of the speed after a change, in a few seconds.
+//! `evaluation-speed` and `integration-speed` measure everything.
 //!
-//! Cases take turns, so that a change of the processor's clock meets all of them, and
-//! the least of their times counts: what disturbs a run only lengthens it.
+//! Cases are timed alternately, so that a change of the processor's clock affects all of them, and
+//! the shortest time counts, since disturbances only lengthen a run.
 
 use std::hint::black_box;
 use std::time::{Duration, Instant};
@@ -12,13 +12,13 @@ use branched_pendulum::prelude::*;
 use branched_pendulum_studies::integration_speed::ensemble::{ORDER, near_threshold};
 use branched_pendulum_studies::scenes::{BranchedDouble, Rods, ThirtyOneRods};
 
-/// Rounds of turns.
+/// Number of turns.
 const ROUNDS: usize = 40;
 
-/// States in one pass.
+/// Number of states in one pass.
 const STATES: usize = 256;
 
-/// A case: its name, the unit of its time, and units in one pass.
+/// A case: its name, the unit of its time, and the number of units in one pass.
 struct Case {
     name: &'static str,
     unit: &'static str,
@@ -42,7 +42,7 @@ fn case(
     }
 }
 
-/// Accelerations of states one by one.
+/// Creates a case that evaluates accelerations of states one by one.
 fn one_by_one<const N: usize>(name: &'static str, model: impl Pendulum<f64> + 'static) -> Case {
     let states: Vec<([f64; N], [f64; N])> = (0..STATES)
         .map(|state| {

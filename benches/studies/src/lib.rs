@@ -1,8 +1,7 @@
 //! Studies of the project itself as a library, so that tests can call them.
 //!
-//! Each program in `src/bin` is a thin shell around one module here; but for
-//! `evaluation-speed`, whose many scenes take long to compile and whose modules are
-//! its own.
+//! Each program in `src/bin` only calls one module of this library, except for `evaluation-speed`,
+//! which has its own modules because its many scenes take long to compile.
 
 pub mod advise;
 pub mod integration_speed;

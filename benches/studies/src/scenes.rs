@@ -1,14 +1,13 @@
-//! The trees that several programs look at.
+//! Trees that several programs use.
 
 use branched_pendulum::branched_pendulum;
 
-/// The paper's apparatus with ideal joints, and everything that programs ask of it: W to
-/// first order in θ_d as published, to orders 2 to 8 in the amplitude (θ_d and p_d
-/// together), and exact.
+/// The paper's apparatus with ideal joints, and the requested forms of W: to first order in θ_d as
+/// published, to orders 2 to 8 in the amplitude (θ_d and p_d together), and exact.
 ///
-/// Lengths and masses were measured, the moments of inertia fitted to the three
-/// eigenfrequencies (the paper, sections 4 and 5). The paper does not state g;
-/// a motion that starts from rest depends on it only by the scale of time.
+/// Lengths and masses were measured, the moments of inertia fitted to the three eigenfrequencies
+/// (the paper, sections 4 and 5). The paper does not state g; for a motion that starts from rest,
+/// another g only changes the time scale.
 #[branched_pendulum(
     gravity = 9.80665,
     parent(mass = 0.12880, com = 0.084, inertia = 1.88e-3, joint = 0.27) [
@@ -21,8 +20,8 @@ use branched_pendulum::branched_pendulum;
 )]
 pub struct BranchedDouble;
 
-/// The apparatus with viscous friction in its joints: a scene of its own, for most runs
-/// are without friction, and then none is computed.
+/// The apparatus with viscous friction in its joints. It is a separate scene because most runs are
+/// without friction and then need not compute any.
 #[branched_pendulum(
     gravity = 9.80665,
     parent(mass = 0.12880, com = 0.084, inertia = 1.88e-3, joint = 0.27, friction = friction_root) [
@@ -32,8 +31,7 @@ pub struct BranchedDouble;
 )]
 pub struct DampedBranchedDouble;
 
-/// Uniform rods: every rod carries two of half its mass and seven tenths of its
-/// length.
+/// Uniform rods: each rod carries two rods with half its mass and 0.7 times its length.
 macro_rules! rods {
     ($(#[$doc:meta])* $name:ident: $generations:tt generations) => {
         $(#[$doc])*
@@ -48,15 +46,14 @@ macro_rules! rods {
 }
 
 rods! {
-    /// Seven uniform rods: every rod carries two of half its mass and seven tenths
-    /// of its length.
+    /// Seven uniform rods: each carries two rods with half its mass and 0.7 times its length.
     Rods: 3 generations
 }
 rods! {
-    /// Seven rods with one generation more: fifteen.
+    /// The seven rods with one more generation: fifteen rods.
     FifteenRods: 4 generations
 }
 rods! {
-    /// Seven rods with two generations more: thirty-one.
+    /// The seven rods with two more generations: thirty-one rods.
     ThirtyOneRods: 5 generations
 }

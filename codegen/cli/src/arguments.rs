@@ -1,4 +1,4 @@
-//! The command line.
+//! Command-line arguments.
 
 use branched_pendulum_codegen::program::Pass;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
@@ -7,8 +7,8 @@ use std::path::PathBuf;
 
 /// Expands the attribute #[branched_pendulum(...)] in a Rust source file, and shows how.
 ///
-/// Ends with 0 where it is done, 1 where the source is wrong or a file cannot be read
-/// or written, 2 for a wrong command line, 3 where `check` finds a stale file.
+/// Exit codes: 0 on success, 1 if the source is wrong or a file cannot be read or written, 2 for a
+/// wrong command line, 3 if `check` finds an outdated file.
 #[derive(Parser)]
 #[command(
     name = "cargo-branched-pendulum",
@@ -22,55 +22,55 @@ pub(crate) struct Arguments {
     pub(crate) action: Action,
 }
 
-/// What the tool is asked for.
+/// The requested action.
 #[derive(Subcommand)]
 pub(crate) enum Action {
-    /// Writes the source with every attribute expanded. Everything but the attributed structs is
-    /// copied as it stands; imports of the attribute itself are left out.
+    /// Writes the source with every attribute expanded. All other code is copied unchanged, except
+    /// that imports of the attribute itself are left out.
     #[command(verbatim_doc_comment)]
     Expand {
         #[command(flatten)]
         source: Source,
-        /// writes to a file [default: the standard output]
+        /// output file [default: the standard output]
         #[arg(long, value_name = "FILE")]
         output: Option<PathBuf>,
     },
-    /// Compares what would be written with a committed file; ends with 3 where that is stale.
+    /// Compares a committed file with the present expansion; exits with 3 if the file is outdated.
     Check {
         #[command(flatten)]
         source: Source,
         /// the committed file
         committed: PathBuf,
-        /// the file is what `emit` writes of this kind
+        /// kind of output that the committed file holds, as for `emit`
         #[arg(long, value_name = "OUTPUT")]
         emit: Option<Output>,
     },
-    /// Shows a stage of the derivation.
+    /// Prints one stage of the derivation.
     Stage {
-        /// the stage
+        /// stage to print
         stage: Stage,
         #[command(flatten)]
         source: Source,
     },
     /// Writes functions in another language, the formulas, or a part of the code.
     Emit {
-        /// what is written
+        /// kind of output
         emit: Output,
         #[command(flatten)]
         source: Source,
-        /// writes to a file [default: the standard output]
+        /// output file [default: the standard output]
         #[arg(long, value_name = "FILE")]
         output: Option<PathBuf>,
     },
 }
 
-/// The source, and how it is compiled.
+/// The source file, and options of its compilation.
 #[derive(Args)]
 pub(crate) struct Source {
     /// Rust file with attributed structs; - for the standard input
     #[arg(value_name = "SOURCE")]
     pub(crate) path: PathBuf,
-    /// leaves out a pass over programs, to compare
+    /// leaves out one optimisation pass, for comparison
     #[arg(long, value_name = "PASS", value_parser = pass())]
     pub(crate) without: Option<Pass>,
 }
@@ -84,13 +84,13 @@ pub(crate) enum Stage {
     Scene,
     /// the derived mechanics
     Mechanics,
-    /// the code to write, as a flat program
+    /// the code to emit, as a flat list of operations
     Program,
-    /// the worth of the passes over programs
+    /// operation counts without each of the optimisation passes
     Passes,
 }
 
-/// Output beside the model.
+/// Kinds of output other than the expanded model.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum Output {
     /// C99
@@ -101,7 +101,7 @@ pub(crate) enum Output {
     Julia,
     /// the formulas, as a LaTeX document
     Latex,
-    /// the equations of one link alone, in Rust, where the code is loops
+    /// the equations of a single link, in Rust, if the code has loops over links
     Equations,
 }
 

@@ -1,11 +1,11 @@
-//! Errors of a source file in the manner of the compiler.
+//! Prints errors of a source file in the format of the Rust compiler.
 
 use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
 use branched_pendulum_codegen::report::{Diagnostic, Faults, Problem};
 use std::ops::Range;
 
-/// All errors of an attribute, in the order of the source. Errors about
-/// no token are about the struct at `item`.
+/// Formats all errors in an attribute, in the order of the source. Errors without a span point to
+/// the struct at `item`.
 pub(crate) fn all(
     path: &str,
     source: &str,
@@ -36,7 +36,7 @@ pub(crate) fn all(
     texts.collect::<Vec<_>>().join("\n\n")
 }
 
-/// One error without a label or a hint.
+/// Formats one error without a label or a hint.
 pub(crate) fn one(
     path: &str,
     source: &str,
@@ -58,7 +58,7 @@ fn render(group: Group<'_>, styled: bool) -> String {
     renderer.render(&[group])
 }
 
-/// The part of a range that is on its first line.
+/// Returns the part of a range that is on its first line.
 fn first_line(source: &str, range: &Range<usize>) -> Range<usize> {
     let text = source.get(range.clone()).unwrap_or_default();
     let length = text.find('\n').unwrap_or(text.len());

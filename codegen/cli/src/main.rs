@@ -1,8 +1,8 @@
 //! Expands `#[branched_pendulum(...)]` in a source file.
 //!
-//! For builds that cannot or may not run the derivation: commit the output,
-//! build it against `branched-pendulum` without its feature `macros`, and let
-//! `cargo branched-pendulum check` tell when it is stale.
+//! This is for builds that cannot or may not run the derivation: commit the output, build it
+//! against `branched-pendulum` without its feature `macros`, and let `cargo branched-pendulum
+//! check` report when it is outdated.
 
 mod arguments;
 mod diagnostics;
@@ -15,6 +15,7 @@ use proc_macro2::TokenStream;
 use quote::ToTokens;
 use source::{Finder, replace};
 use std::ffi::OsString;
+use std::fs::File;
 use std::io::{self, ErrorKind, IsTerminal, Read, Write};
 use std::path::Path;
 use std::process::ExitCode;
@@ -24,20 +25,20 @@ fn main() -> ExitCode {
     match run(&Arguments::parse_from(words()).action) {
         Ok(code) => code,
         Err(message) => {
-            // Nobody may be left to read it.
+            // Ignored: the reader of a pipe may have closed it.
             let _ = writeln!(io::stderr(), "{}", message.trim_end());
             ExitCode::FAILURE
         }
     }
 }
 
-/// The words of the command line without the name of the subcommand, which Cargo hands on.
+/// Returns the command-line arguments, without the name of the subcommand that Cargo passes.
 fn words() -> impl Iterator<Item = OsString> {
     let words = std::env::args_os().enumerate();
     words.filter_map(|(place, word)| (place != 1 || word != "branched-pendulum").then_some(word))
 }
 
-/// Where the text goes.
+/// Destination of the output.
 enum Destination<'a> {
     Written(Option<&'a Path>),
     Compared(&'a Path),
@@ -68,7 +69,7 @@ fn run(action: &Action) -> Result<ExitCode, String> {
     deliver(&destination, &text(given, stage, emit)?)
 }
 
-/// What is asked for of a source.
+/// Produces the requested text for a source file.
 fn text(given: &Source, stage: Option<Stage>, emit: Option<Output>) -> Result<String, String> {
     let path = given.path.display().to_string();
     let source = read(&given.path)?;
@@ -93,7 +94,7 @@ fn text(given: &Source, stage: Option<Stage>, emit: Option<Output>) -> Result<St
             error(found.range.clone(), title) + "\nhelp: write `code = " + code + "`"
         };
         let written_in = |language: Language| {
-            let title = "loops have no functions in other languages";
+            let title = "code in loops cannot be translated to other languages";
             translate(language, scene, program).ok_or_else(|| refuse(title, "unrolled"))
         };
         match (stage, emit) {
@@ -107,7 +108,7 @@ fn text(given: &Source, stage: Option<Stage>, emit: Option<Output>) -> Result<St
                 );
             }
             (None, Some(Output::Equations)) => {
-                let title = "code that is written out has no equations of one link";
+                let title = "only code in loops contains the equations of a single link";
                 let equations = branched_pendulum_codegen::emit::link_equations(
                     item, scene, mechanics, program,
                 );
@@ -126,7 +127,7 @@ fn text(given: &Source, stage: Option<Stage>, emit: Option<Output>) -> Result<St
     Ok(shown)
 }
 
-/// The structures with the attribute, in a source of which there is one at least.
+/// Finds the structs with the attribute; an error if the source has none.
 fn find(path: &str, source: &str) -> Result<Finder, String> {
     let file = syn::parse_file(source).map_err(|wrong| {
         let (range, title) = (wrong.span().byte_range(), wrong.to_string());
@@ -141,7 +142,8 @@ fn find(path: &str, source: &str) -> Result<Finder, String> {
     Ok(finder)
 }
 
-/// Colours on a terminal that shows them, to a user who wants them.
+/// Returns true if messages are coloured: the terminal supports it and the user has not disabled
+/// it.
 fn is_styled() -> bool {
     let set = |name| std::env::var_os(name).filter(|value| !value.is_empty());
     io::stderr().is_terminal()
@@ -158,14 +160,23 @@ fn read(path: &Path) -> Result<String, String> {
     read.map_err(|error| format!("error: cannot read {}: {error}", path.display()))
 }
 
-/// Writes a file that is whole or absent.
+/// Writes the file that the user names: it is replaced as a whole, or stays as it was. A link, a pipe or a device is
+/// refused.
 fn write(path: &Path, text: &str) -> Result<(), String> {
     let name = path.file_name().unwrap_or_default().to_string_lossy();
-    let part = path.with_file_name(format!(".{name}.part"));
-    let written = std::fs::write(&part, text).and_then(|()| std::fs::rename(&part, path));
-    written.map_err(|error| {
+    let part = path.with_file_name(format!(".{name}.{}.part", std::process::id()));
+    let failed = |error: io::Error| format!("error: cannot write {}: {error}", path.display());
+    if std::fs::symlink_metadata(path).is_ok_and(|data| !data.is_file()) {
+        return Err(failed(io::Error::other("it is not a regular file")));
+    }
+    // Exclusive: nothing else had this name.
+    let mut file = File::create_new(&part).map_err(failed)?;
+    let written = file.write_all(text.as_bytes());
+    drop(file);
+    let placed = written.and_then(|()| std::fs::rename(&part, path));
+    placed.map_err(|error| {
         let _ = std::fs::remove_file(&part);
-        format!("error: cannot write {}: {error}", path.display())
+        failed(error)
     })
 }
 
@@ -178,14 +189,16 @@ fn deliver(destination: &Destination<'_>, text: &str) -> Result<ExitCode, String
                 let pairs = committed.lines().zip(text.lines());
                 let line = pairs.take_while(|(a, b)| a == b).count() + 1;
                 let path = path.display();
-                let message =
-                    format!("{path}:{line}: stale from here on; write it anew with --output");
+                let message = format!(
+                    "{path}:{line}: stale: differs from the present expansion from this line on\n\
+                     help: write it again with `expand --output {path}`"
+                );
                 let _ = writeln!(io::stderr(), "{message}");
                 return Ok(ExitCode::from(3));
             }
         }
         Destination::Written(None) => {
-            // Whoever reads a pipe may have read enough.
+            // Ignored: the reader of a pipe may have closed it.
             let mut out = io::stdout().lock();
             match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
                 Err(error) if error.kind() != ErrorKind::BrokenPipe => {
@@ -212,12 +225,12 @@ fn format_tokens(tokens: TokenStream) -> Result<String, String> {
     layout(tokens)
         .map(|text| text.trim_end().to_owned())
         .map_err(|error| {
-            format!("error: the emitted code is no Rust (a bug of this tool): {error}")
+            format!("error: the emitted code is not valid Rust (a bug of this tool): {error}")
         })
 }
 
-/// The items with those lints allowed that the compiler silences where a macro writes them: of
-/// style, and of names that nobody else reaches.
+/// Adds attributes that allow the lints which the compiler does not apply to the output of a macro:
+/// lints of style, and of items that no other code uses.
 fn with_lints_allowed(tokens: TokenStream) -> TokenStream {
     let Ok(mut file) = syn::parse2::<syn::File>(tokens.clone()) else {
         return tokens;

@@ -1,4 +1,4 @@
-//! The attributed structs of a source file, and the file with their code in place.
+//! Finding the attributed structs of a source file, and replacing them by their expansions.
 
 use proc_macro2::TokenStream;
 use quote::ToTokens;
@@ -7,14 +7,14 @@ use std::path::Path;
 use syn::spanned::Spanned;
 use syn::visit::Visit;
 
-/// An attributed struct: the tokens that the macro would receive, and their place.
+/// A struct with the attribute: the tokens that the macro would receive, and their span.
 pub(crate) struct AttributedStruct {
     pub(crate) attribute: TokenStream,
     pub(crate) item: TokenStream,
     pub(crate) range: Range<usize>,
 }
 
-/// Finds the structs, and the imports that are of no use in the expanded file.
+/// Collects the attributed structs, and the imports that the expanded file does not need.
 #[derive(Default)]
 pub(crate) struct Finder {
     pub(crate) found: Vec<AttributedStruct>,
@@ -45,9 +45,9 @@ impl<'ast> Visit<'ast> for Finder {
         }
     }
 
-    /// `use branched_pendulum::branched_pendulum;` names what is not there
-    /// without the feature `macros`; `use branched_pendulum::prelude::*;` may
-    /// have served the attribute alone.
+    /// Collects imports that the expanded file does not need: `use
+    /// branched_pendulum::branched_pendulum;` names an item that is missing without the feature
+    /// `macros`, and `use branched_pendulum::prelude::*;` may be there for the attribute alone.
     fn visit_item_use(&mut self, item: &'ast syn::ItemUse) {
         let mut tree = &item.tree;
         let mut last = None;
@@ -69,7 +69,7 @@ impl<'ast> Visit<'ast> for Finder {
     }
 }
 
-/// The source with its replacements, under a line that tells where it is from.
+/// Returns the source with its replacements, below a line that names the source file.
 pub(crate) fn replace(
     source: &str,
     mut replacements: Vec<(Range<usize>, String)>,
@@ -89,7 +89,7 @@ pub(crate) fn replace(
         text.push_str(source.get(at..range.start).unwrap_or_default());
         text.push_str(&replacement);
         at = range.end;
-        // A region that is left out takes its line along.
+        // Removing a region also removes its line break.
         let rest = source.get(at..).unwrap_or_default();
         if replacement.is_empty() && rest.starts_with('\n') {
             at += 1;

@@ -1,11 +1,11 @@
-//! Derivations of one user keep out of each other's way: real processes.
+//! Derivations in several processes of one user wait for each other. The test runs real processes.
 
 use std::fs::{self, File};
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Output, Stdio};
 use std::time::{Duration, Instant};
 
-/// A folder of this test's own, removed at the end.
+/// A temporary folder of this test, removed at the end.
 struct Folder(PathBuf);
 
 impl Folder {
@@ -28,7 +28,7 @@ impl Drop for Folder {
     }
 }
 
-/// The tool, deriving the paper's pendulum, for a user with this home.
+/// Returns a command that derives the paper's pendulum, for a user with this home folder.
 fn derivation(home: &Path) -> Command {
     let scene =
         PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../tests/fixtures/scenes/paper.rs");
@@ -42,8 +42,8 @@ fn derivation(home: &Path) -> Command {
     command
 }
 
-/// The lock of a user with this home, held as by a process that derives all the time, and the
-/// file in which that process says who it is.
+/// Takes the lock of a user with this home folder, as a process does that derives all the time.
+/// Returns the lock, and the file in which that process names itself.
 #[cfg(target_os = "linux")]
 fn held(home: &Path) -> (File, PathBuf) {
     let own = home.join(".cache/branched-pendulum");
@@ -82,7 +82,7 @@ fn processes_with_other_temporary_folders_do_not_abort_each_other() {
 #[test]
 fn a_home_that_cannot_be_written_is_an_error_with_its_remedy() {
     let folder = Folder::new("home");
-    // A file where the home should be: no user, root neither, can write below it.
+    // A file instead of the home folder: no user, not even root, can create files below it.
     let home = folder.0.join("home");
     fs::write(&home, "").expect("the folder is this test's own");
     let output = finished(derivation(&home).spawn().expect("the tool starts"));
@@ -106,7 +106,10 @@ fn a_process_of_many_derivations_is_waited_for() {
     let child = command.spawn().expect("the tool starts");
     for number in 0..8 {
         let text = format!("process 7 (package `busy`)\n{number}");
-        fs::write(&note, text).expect("likewise");
+        // Whoever reads the note finds it whole.
+        let written = folder.0.join("note");
+        fs::write(&written, text).expect("the folder is this test's own");
+        fs::rename(&written, &note).expect("the folder is this test's own");
         std::thread::sleep(Duration::from_millis(500));
     }
     drop(held);
@@ -115,7 +118,7 @@ fn a_process_of_many_derivations_is_waited_for() {
     assert!(output.status.success(), "{errors}");
     let notice = "waiting for the derivation of process 7 (package `busy`)\n";
     assert!(errors.contains(notice), "{errors}");
-    // Each derivation tells itself apart.
+    // Each derivation identifies itself.
     let note = fs::read_to_string(note).expect("likewise");
     let lines: Vec<&str> = note.lines().collect();
     assert!(
@@ -149,11 +152,88 @@ fn nobody_waits_for_ever_and_who_waits_says_for_whom() {
         "{waited:?}"
     );
 
-    // Once it is let go the next one derives.
+    // Once the lock is released, the next process derives.
     let mut command = derivation(&home);
     let child = command.spawn().expect("the tool starts");
     std::thread::sleep(Duration::from_millis(200));
     drop(held);
     let output = finished(child);
     assert!(output.status.success(), "{}", self::errors(&output));
+}
+
+/// Links, pipes and files of others have the names that derivations use: all stay as they are.
+#[cfg(unix)]
+#[test]
+fn files_of_others_stay_as_they_are() {
+    use std::os::unix::fs::symlink;
+    let folder = Folder::new("foreign");
+    let thesis = folder.0.join("thesis.tex");
+    fs::write(&thesis, "\\chapter{One}\n").expect("the folder is this test's own");
+    let place = |kind: &str, path: &Path| match kind {
+        "link" => symlink(&thesis, path).expect("likewise"),
+        "hard link" => fs::hard_link(&thesis, path).expect("likewise"),
+        "pipe" => {
+            let made = Command::new("mkfifo").arg(path).status();
+            assert!(made.is_ok_and(|status| status.success()));
+        }
+        kind => fs::write(path, kind).expect("likewise"),
+    };
+    for (number, kind) in ["link", "hard link", "pipe", "diary"]
+        .into_iter()
+        .enumerate()
+    {
+        for (name, derives) in [("derivation.lock", false), ("derivation.holder", true)] {
+            let home = folder.sub(&format!("home-{number}-{name}"));
+            let own = home.join(".cache/branched-pendulum");
+            fs::create_dir_all(&own).expect("likewise");
+            let path = own.join(name);
+            place(kind, &path);
+            let before = fs::symlink_metadata(&path)
+                .expect("it is there")
+                .file_type();
+            let output = finished(derivation(&home).spawn().expect("the tool starts"));
+            let errors = errors(&output);
+            assert_eq!(output.status.success(), derives, "{kind} {name}: {errors}");
+            assert!(
+                derives || errors.contains("cannot write and lock"),
+                "{errors}"
+            );
+            let after = fs::symlink_metadata(&path)
+                .expect("it is there")
+                .file_type();
+            assert_eq!(before, after);
+            let text = fs::read_to_string(&thesis).expect("it is there");
+            assert_eq!(text, "\\chapter{One}\n", "{kind} {name}");
+            if kind == "diary" {
+                assert_eq!(fs::read_to_string(&path).expect("it is there"), "diary");
+            }
+        }
+    }
+}
+
+/// The sandbox of a package manager names a home that does not exist: it is not created.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_missing_home_is_not_created() {
+    let folder = Folder::new("homeless");
+    let temporary = folder.sub("tmp");
+    for missing in ["homeless-shelter", "a/b/c", "nonexistent"] {
+        let home = folder.0.join(missing);
+        let mut command = derivation(&home);
+        command.env("TMPDIR", &temporary);
+        let output = finished(command.spawn().expect("the tool starts"));
+        assert!(output.status.success(), "{}", errors(&output));
+        let first = folder.0.join(missing.split('/').next().unwrap_or(missing));
+        assert!(!home.exists() && !first.exists());
+    }
+    // A cache folder that is named is created, wherever it is.
+    let cache = folder.0.join("cache");
+    let mut command = derivation(&folder.0.join("nonexistent"));
+    command.env("XDG_CACHE_HOME", &cache);
+    assert!(
+        finished(command.spawn().expect("the tool starts"))
+            .status
+            .success()
+    );
+    assert!(cache.join("branched-pendulum").exists());
 }

@@ -1,4 +1,4 @@
-//! What the pages of the repository say of the tool and of what is in it.
+//! Checks statements of the documentation pages about the tool and its licences.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
@@ -8,7 +8,7 @@ fn repository() -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../..")
 }
 
-/// All pages below a folder, with their text.
+/// Collects all pages below a folder, with their text.
 fn pages(folder: &Path, found: &mut Vec<(PathBuf, String)>) {
     for entry in std::fs::read_dir(folder).expect("the folder can be read") {
         let path = entry.expect("the folder can be read").path();
@@ -30,7 +30,7 @@ fn pages(folder: &Path, found: &mut Vec<(PathBuf, String)>) {
     }
 }
 
-/// Commands of the tool in a page: lines of listings, and code within sentences.
+/// Returns the commands of the tool in a page: lines of listings, and code within sentences.
 fn commands(page: &str) -> BTreeSet<String> {
     let lines = page.lines().map(str::trim_start);
     let sentences = page.split('`').skip(1).step_by(2);
@@ -50,8 +50,8 @@ fn tool(arguments: &[&str], folder: &Path) -> Output {
         .expect("the tool starts")
 }
 
-/// Whether a file is there or not: a wrong command line ends with 2. Without a source,
-/// within sentences, the words are those that there are.
+/// Checks the command lines only, not the files: a wrong command line exits with 2. Commands within
+/// sentences without a source are checked for their words alone.
 #[test]
 fn commands_of_all_pages_are_understood() {
     let mut found = Vec::new();
@@ -75,7 +75,7 @@ fn commands_of_all_pages_are_understood() {
                 assert_ne!(output.status.code(), Some(2), "{place}: {errors}");
                 continue;
             }
-            // What is put in place of a name stands in capitals.
+            // Words in capitals are placeholders.
             let is_name = |word: &&&str| !word.chars().all(char::is_uppercase);
             for word in arguments.iter().filter(is_name) {
                 words += 1;
@@ -87,8 +87,8 @@ fn commands_of_all_pages_are_understood() {
     std::fs::remove_dir_all(empty).expect("the folder is ours");
 }
 
-/// Packages that the macro and the tool are made of, by licence, of those that neither the
-/// MIT licence nor the Apache License alone covers.
+/// Returns the packages that the macro and the tool contain, by licence, except those that the MIT
+/// licence or the Apache License alone covers.
 #[cfg(all(target_os = "linux", target_arch = "x86_64"))]
 fn licences() -> BTreeMap<String, BTreeSet<String>> {
     let output = Command::new(env!("CARGO"))
@@ -132,12 +132,12 @@ fn licences() -> BTreeMap<String, BTreeSet<String>> {
     found
 }
 
-/// The table of the page, read from the page.
+/// Compares with the table that is read from the page.
 #[cfg(all(target_os = "linux", target_arch = "x86_64"))]
 #[test]
 fn licences_are_those_of_the_page() {
     let mut found = licences();
-    // Its own section.
+    // This has its own section.
     let own = found.remove("").unwrap_or_default();
     assert_eq!(own, BTreeSet::from(["symbolica".to_owned()]));
     let page = std::fs::read_to_string(repository().join("docs/licences.md"));
@@ -146,7 +146,7 @@ fn licences_are_those_of_the_page() {
         .split_once("| licence | packages |\n|---|---|\n")
         .expect("a table");
     let rows = table.lines().take_while(|line| line.starts_with('|'));
-    let told: BTreeMap<String, BTreeSet<String>> = rows
+    let reported: BTreeMap<String, BTreeSet<String>> = rows
         .map(|row| {
             let cells: Vec<&str> = row.trim_matches('|').split('|').map(str::trim).collect();
             let [licence, packages] = cells[..] else {
@@ -158,5 +158,5 @@ fn licences_are_those_of_the_page() {
             (licence.to_owned(), packages.collect())
         })
         .collect();
-    assert_eq!(told, found);
+    assert_eq!(reported, found);
 }

@@ -1,4 +1,4 @@
-//! The tool, run as its users run it.
+//! Runs the tool as its users run it.
 
 use branched_pendulum_codegen::program::Pass;
 use std::path::PathBuf;
@@ -42,9 +42,9 @@ fn committed_expansions_are_fresh() {
     for name in [
         "by_rule.rs",
         "general.rs",
-        "held.rs",
-        "rough.rs",
-        "straight.rs",
+        "prescribed.rs",
+        "non_viscous.rs",
+        "plain.rs",
     ] {
         let folders = ["src/equations", "equations"];
         let equations = folders.map(|folder| trees.join(folder).join(name));
@@ -65,7 +65,7 @@ fn stale_expansion_is_told() {
         stale.as_ref(),
     ]);
     assert_eq!(output.status.code(), Some(3));
-    assert!(text(&output.stderr).contains(": stale from here on"));
+    assert!(text(&output.stderr).contains(": stale: differs"));
     std::fs::remove_file(stale).expect("it is ours");
 }
 
@@ -89,8 +89,8 @@ fn processes_agree_and_keep_the_rest_of_the_file() {
     std::fs::remove_file(path).expect("it is ours");
 }
 
-/// The caret stands under the wrong token behind a tab and wide letters, and the
-/// place is one that terminals and editors jump to.
+/// The caret is below the wrong token, also after a tab and wide letters, and terminals and editors
+/// can jump to the printed position.
 #[test]
 fn errors_name_file_line_and_column() {
     let source = "#[branched_pendulum(gravity = 9.8,\n/* 振り子 */\trod: rod(mass = -1, length = 1))]\nstruct Rod;";
@@ -108,7 +108,7 @@ fn errors_name_file_line_and_column() {
         .iter()
         .position(|line| line.contains("mass = -1"))
         .expect("the line");
-    // Wide letters take two columns, a tab four.
+    // Wide letters take two columns, a tab takes four.
     let width = |c: char| match c {
         '\t' => 4,
         '振' | 'り' | '子' => 2,
@@ -152,7 +152,7 @@ fn the_output_is_written_whole_and_found_fresh() {
     assert!(checked.status.success());
     let both = expand(&["check".as_ref(), scene.as_ref(), output, model.as_ref()]);
     assert_eq!(both.status.code(), Some(2));
-    // As Cargo calls it, with the subcommand's name.
+    // The arguments as Cargo passes them, with the name of the subcommand.
     let words = ["branched-pendulum", "check"].map(std::ffi::OsStr::new);
     let checked = expand(&[words[0], words[1], scene.as_ref(), model.as_ref()]);
     assert!(checked.status.success());
@@ -178,7 +178,7 @@ fn passes_are_left_out_by_name() {
     let unknown = expand_without("optimism");
     assert_eq!(unknown.status.code(), Some(2));
     assert!(text(&unknown.stderr).contains("[possible values: sharing, folding"));
-    // The help lists them all.
+    // The help lists all stages.
     let help = expand(&["stage".as_ref(), "--help".as_ref()]);
     let help = text(&help.stdout);
     for pass in Pass::ALL {

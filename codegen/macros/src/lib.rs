@@ -1,11 +1,10 @@
-//! The attribute `#[branched_pendulum(...)]`. Use it through the crate
-//! `branched-pendulum`, which says what it accepts; all of it is in
-//! `branched-pendulum-codegen`.
+//! The attribute `#[branched_pendulum(...)]`. Use it through the crate `branched-pendulum`, whose
+//! docs describe its syntax; the implementation is in `branched-pendulum-codegen`.
 
 use branched_pendulum_codegen::{ExpansionCache, expand};
 use proc_macro::TokenStream;
 
-// Documented where users meet it, at its re-export.
+// Documented at its re-export, where users see it.
 #[allow(missing_docs)]
 #[proc_macro_attribute]
 pub fn branched_pendulum(attribute: TokenStream, item: TokenStream) -> TokenStream {

@@ -1,21 +1,20 @@
-//! Expansions that are kept between builds.
+//! Cache of expansions between builds.
 //!
-//! An unchanged attribute on an unchanged struct derives nothing and takes no
-//! lock: its tokens are read from a file that an earlier build wrote. What is kept
-//! is the whole expansion, as text, because everything in it but the struct's own
-//! tokens stands at the attribute's place, which text read back does too; the
-//! struct's own tokens get their places again ([`placed`]). An attribute with
-//! mistakes is read anew each time: its messages have places of their own.
+//! An unchanged attribute on an unchanged struct needs neither a derivation nor the lock: its
+//! tokens are read from a file that an earlier build wrote. The file contains the whole expansion
+//! as text. Text that is read back has the span of the attribute, which is the correct span of all
+//! tokens except those of the struct; these get their spans back from the struct ([`respan`]). An
+//! attribute with mistakes is expanded anew each time, because its messages have spans too.
 //!
-//! A file holds the state of this compiler, the tokens that it answers, their
-//! expansion and a checksum. Whatever differs in the first two, or is damaged, is no
-//! answer, and is written anew. Other files may stand in the folder: only those with a name
-//! and a head of the cache's own are read, replaced, counted or removed, and only where no
-//! other user may have written them ([`trust`]): what is kept is compiled.
+//! A file holds the state of this compiler, the tokens that were expanded, their expansion and a
+//! checksum. A file that is damaged, or differs in the first two, is ignored and written anew.
+//! Other files may be in the folder: only files with a name and a first line of this cache are
+//! read, replaced, counted or removed, and only if no other user may have written them ([`trust`]),
+//! because kept tokens are compiled.
 
 mod entry;
 mod folder;
-mod placed;
+mod respan;
 #[cfg(test)]
 mod tests;
 mod trust;
@@ -26,7 +25,8 @@ use folder::Folder;
 use proc_macro2::TokenStream;
 use std::path::PathBuf;
 
-/// Environment variable with the folder of kept expansions, or `off`.
+/// Environment variable that names the folder of stored expansions; the value `off` disables the
+/// cache.
 const VARIABLE: &str = "BRANCHED_PENDULUM_CACHE";
 
 /// A folder of kept expansions.
@@ -36,10 +36,10 @@ pub struct ExpansionCache {
 }
 
 impl ExpansionCache {
-    /// Returns the cache that the build of this process uses: the folder that the
-    /// variable `BRANCHED_PENDULUM_CACHE` names, else `branched-pendulum` in cargo's
-    /// target folder, else, where no target folder can be told (in an editor), one
-    /// beside the lock of derivations. `None` where the variable is `off`.
+    /// Returns the cache for the build of this process. Its folder is given by the variable
+    /// `BRANCHED_PENDULUM_CACHE`; by default it is `branched-pendulum` in Cargo's target folder or,
+    /// if no target folder is found (in an editor), a folder next to the lock file of derivations.
+    /// Returns `None` if the variable is `off`.
     pub fn of_this_build() -> Option<Self> {
         let named = std::env::var_os(VARIABLE).filter(|value| !value.is_empty());
         match named {
@@ -55,22 +55,23 @@ impl ExpansionCache {
         Self { folder }
     }
 
-    /// Expands the attribute as [`expand`](crate::expand) does, or answers with the
-    /// kept expansion. The tokens are the same in both cases. A folder that cannot
-    /// be written, or that others may write, keeps nothing.
+    /// Returns the stored expansion of the attribute, or expands it like [`expand`](crate::expand)
+    /// and stores the result. The tokens are identical in both cases. Nothing is stored in a folder
+    /// that cannot be written, or that other users may write to.
     pub fn expand(&self, attribute: TokenStream, item: TokenStream) -> TokenStream {
         let question = entry::question(&attribute, &item);
         let name = CacheEntry::file_name(&question);
         let kept = self.folder.read(&name);
         if let Some(tokens) = kept.and_then(|text| CacheEntry::answer(&text, &question)) {
-            return placed::placed(tokens, &item);
+            return respan::respan(tokens, &item);
         }
         let tokens = match stages(attribute, item.clone()) {
             Ok(stages) => stages.tokens,
             Err((_, tokens)) => return tokens,
         };
         let expansion = tokens.to_string();
-        // Read back as a later build will read it, so that both compile the same.
+        // Parsed from text as a later build will parse it, so that both builds compile identical
+        // tokens.
         let Ok(tokens) = expansion.parse() else {
             return tokens;
         };
@@ -79,6 +80,6 @@ impl ExpansionCache {
             expansion: &expansion,
         };
         self.folder.write(&name, &entry.to_string());
-        placed::placed(tokens, &item)
+        respan::respan(tokens, &item)
     }
 }

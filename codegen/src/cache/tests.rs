@@ -1,12 +1,12 @@
 use super::entry::{CacheEntry, question};
-use super::{ExpansionCache, placed};
+use super::{ExpansionCache, respan};
 use crate::{expand, layout};
 use proc_macro2::TokenStream;
 use quote::quote;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// A folder of a test's own, removed at the end.
+/// A temporary folder of one test, removed at the end.
 struct Own(PathBuf);
 
 impl Own {
@@ -19,7 +19,7 @@ impl Own {
         ExpansionCache::in_folder(self.0.clone())
     }
 
-    /// Writes the file that answers a question, which only its user may write.
+    /// Writes the file that answers a question, with write permission for this user only.
     fn plant(&self, question: &str, entry: &CacheEntry<'_>) -> PathBuf {
         let path = self.0.join(CacheEntry::file_name(question));
         fs::create_dir_all(&self.0).unwrap();
@@ -35,7 +35,7 @@ impl Own {
     }
 }
 
-/// Sets who may do what, where the system knows it.
+/// Sets the permissions of a file, on systems that have them.
 fn mode(path: &Path, mode: u32) {
     #[cfg(unix)]
     fs::set_permissions(path, std::os::unix::fs::PermissionsExt::from_mode(mode)).unwrap();
@@ -76,7 +76,7 @@ fn kept_and_new_expansions_are_those_without_a_cache() {
 fn what_is_kept_is_the_answer_and_nothing_is_derived() {
     let own = Own::new("answer");
     let question = question(&attribute(), &item());
-    // No derivation gives these tokens.
+    // No derivation returns these tokens.
     let entry = CacheEntry {
         question: &question,
         expansion: "fn kept() {}",
@@ -89,7 +89,7 @@ fn what_is_kept_is_the_answer_and_nothing_is_derived() {
     let tokens = own.cache().expand(attribute(), item());
     assert_eq!(tokens.to_string(), planted);
 
-    // One that others may have written is compiled by nobody.
+    // A file that other users may have written is never compiled.
     #[cfg(unix)]
     for (at, open, shut) in [(&path, 0o666, 0o600), (&own.0, 0o777, 0o700)] {
         mode(at, open);
@@ -100,7 +100,7 @@ fn what_is_kept_is_the_answer_and_nothing_is_derived() {
     }
     assert_eq!(own.cache().expand(attribute(), item()).to_string(), planted);
 
-    // Other tokens, and another compiler, are other questions.
+    // Other tokens, or another compiler, are another question.
     let other = own
         .cache()
         .expand(quote!(gravity = 1, rod: rod(mass = m, length = 1)), item());
@@ -146,7 +146,7 @@ fn damaged_files_are_no_answer_and_are_written_anew() {
         assert_eq!(own.cache().expand(attribute(), item()).to_string(), plain);
         assert_eq!(fs::read_to_string(path).unwrap(), whole);
     }
-    // Without the head it may be anybody's.
+    // Without the first line the file may belong to another program.
     for foreign in [&b"\xff\xfe"[..], b"", &whole.as_bytes()[10..]] {
         fs::write(path, foreign).unwrap();
         assert_eq!(own.cache().expand(attribute(), item()).to_string(), plain);
@@ -187,7 +187,7 @@ fn mistakes_are_never_kept_and_no_folder_is_no_mistake() {
     assert!(tokens.contains("compile_error"), "{tokens}");
     assert_eq!(own.files().len(), 0);
 
-    // A file where the folder should be.
+    // A file instead of the folder.
     fs::write(&own.0, "").unwrap();
     let tokens = own.cache().expand(attribute(), item());
     let plain = layout(expand(attribute(), item())).unwrap();
@@ -197,7 +197,7 @@ fn mistakes_are_never_kept_and_no_folder_is_no_mistake() {
 
 #[test]
 fn the_structs_own_tokens_keep_their_places() {
-    // With places, as in a file.
+    // With spans, as in a file.
     let item: TokenStream = "#[derive(Clone)]\n#[doc = \"text\"]\npub(crate)\nstruct Rod;"
         .parse()
         .unwrap();
@@ -206,7 +206,7 @@ fn the_structs_own_tokens_keep_their_places() {
         impl Rod { fn new(parameters: RodParameters) -> Rod {} }
     };
     let mut lines = Vec::new();
-    collect(placed::placed(kept.clone(), &item), &mut lines);
+    collect(respan::respan(kept.clone(), &item), &mut lines);
     let own = [
         "derive:1",
         "Clone:1",
@@ -221,13 +221,13 @@ fn the_structs_own_tokens_keep_their_places() {
     assert_eq!(lines.iter().filter(|line| *line == "Rod:4").count(), 3);
     assert!(lines.iter().any(|line| line == "parameters:1"));
     assert_eq!(
-        placed::placed(kept.clone(), &item).to_string(),
+        respan::respan(kept.clone(), &item).to_string(),
         kept.to_string()
     );
 }
 
-/// Identifiers with their lines; what `quote!` makes stands in line 1, as the text
-/// of a file that is read back does.
+/// Collects identifiers with their lines. Tokens of `quote!` are on line 1, as is the text of a
+/// stored file that is read back.
 fn collect(tokens: TokenStream, lines: &mut Vec<String>) {
     for token in tokens {
         match token {

@@ -1,6 +1,7 @@
-//! Values: arithmetic on decimal literals and names.
+//! Parser of values: arithmetic on decimal literals and names.
 
-use proc_macro2::{Delimiter, Ident, Literal, Span, TokenStream};
+use proc_macro2::{Delimiter, Ident, Literal, Punct, Span, TokenStream};
+use syn::buffer::Cursor;
 use syn::ext::IdentExt as _;
 use syn::parse::ParseStream;
 use syn::{Token, token};
@@ -10,45 +11,45 @@ use super::list::{ListFault, expected, next_name, parse_all, shortened};
 use crate::exact::{ExactError, Rational};
 use crate::report::{Diagnostic, SyntaxMessage, ValueMessage};
 
-/// Highest total power of parameters under a `^`: masses and lengths have no
-/// use for more, and the emitted code writes every factor out.
+/// Highest total power of parameters below a `^`. Masses and lengths need no higher one, and the
+/// emitted code writes out every factor.
 const MAX_DEGREE: u32 = 8;
 
-/// The place of `each(...)`.
+/// Accepted use of `each(...)`, for messages.
 pub(super) const EACH_WHOLE: &str = "`each(...)` around whole values, as in `each(2 * a, 2 * b)`";
 
-/// A value as written.
+/// A value as written in the source.
 #[derive(Debug, Clone)]
 pub struct Expression {
-    /// Tokens of the value; the first of them where the compiler does not join spans.
+    /// Tokens of the value, or only the first of them if the compiler cannot join spans.
     pub span: Span,
     /// Form and parts of the value.
     pub kind: ExpressionKind,
 }
 
-/// The kinds of [`Expression`].
+/// Kinds of [`Expression`].
 #[derive(Debug, Clone)]
 pub enum ExpressionKind {
-    /// A decimal literal, exactly.
+    /// A decimal literal, read exactly.
     Number(Rational),
     /// A parameter of the model.
     Name(Ident),
-    /// A sum; a difference has [`Negative`](Self::Negative) members.
+    /// A sum. A difference is a sum with [`Negative`](Self::Negative) members.
     Sum(Vec<Expression>),
     /// The product of all factors, divided by all divisors.
     Product {
-        /// At least one.
+        /// Factors, at least one.
         factors: Vec<Expression>,
-        /// None without a `/`.
+        /// Divisors; empty without a `/`.
         divisors: Vec<Expression>,
     },
     /// A power with a literal exponent.
     Power(Box<Expression>, i32),
-    /// The opposite.
+    /// The value with the opposite sign.
     Negative(Box<Expression>),
-    /// A function of a value, whether or not there is one of that name.
+    /// A function call. The name has not been checked yet.
     Call {
-        /// The function.
+        /// Name of the function.
         function: Ident,
         /// The expression in its parentheses.
         argument: Box<Expression>,
@@ -56,7 +57,7 @@ pub enum ExpressionKind {
 }
 
 impl Expression {
-    /// Calls `visit` with every name of a value, in the order written.
+    /// Calls `visit` with every name in the value, in the order written.
     pub fn for_each_name(&self, visit: &mut impl FnMut(&Ident)) {
         match &self.kind {
             ExpressionKind::Number(_) => {}
@@ -73,7 +74,7 @@ impl Expression {
         }
     }
 
-    /// Parses an expression and stops where it ends.
+    /// Parses an expression and stops at its end.
     pub(super) fn parse(input: ParseStream<'_>) -> Result<Self, ListFault> {
         let start = input.span();
         let mut members = vec![Self::term(input)?];
@@ -96,7 +97,7 @@ impl Expression {
         }))
     }
 
-    /// Parses a product.
+    /// Parses a term: factors with `*` and `/` between them.
     fn term(input: ParseStream<'_>) -> Result<Self, ListFault> {
         let start = input.span();
         let mut factors = vec![Self::factor(input)?];
@@ -128,14 +129,14 @@ impl Expression {
         })
     }
 
-    /// Parses a power, or its opposite.
+    /// Parses a power, optionally preceded by a minus sign.
     fn factor(input: ParseStream<'_>) -> Result<Self, ListFault> {
         let sign = input.span();
         let negative = minus(input);
         Ok(Self::power(input)?.signed(negative, sign))
     }
 
-    /// Parses a primary and its exponent.
+    /// Parses a primary expression and its exponent, if it has one.
     fn power(input: ParseStream<'_>) -> Result<Self, ListFault> {
         let base = Self::primary(input)?;
         if !input.peek(Token![^]) {
@@ -163,8 +164,7 @@ impl Expression {
         Ok(power)
     }
 
-    /// The highest total power of names and functions, divisors counted like
-    /// factors.
+    /// Returns the highest total power of names and functions. Divisors count like factors.
     fn degree(&self) -> u32 {
         match &self.kind {
             ExpressionKind::Number(_) => 0,
@@ -183,12 +183,13 @@ impl Expression {
         }
     }
 
-    /// Parses a literal, a name, a function of an expression or an expression
-    /// in parentheses.
+    /// Parses a literal, a name, a function call or an expression in parentheses.
     fn primary(input: ParseStream<'_>) -> Result<Self, ListFault> {
         let span = input.span();
-        // A fragment that `macro_rules!` passed on keeps together as if it
-        // stood in parentheses.
+        if let Some(name) = path(input) {
+            return Err(Diagnostic::new(span, ValueMessage::RustConstant { name }).into());
+        }
+        // A fragment that `macro_rules!` has passed on is a unit, as if it were in parentheses.
         if let Some(tokens) = invisible_group(input) {
             return parse_all((tokens, span), Self::parse);
         }
@@ -197,7 +198,7 @@ impl Expression {
         }
         if is_literal(input) {
             let value = number(input)?;
-            // A name with a value of its own is the next property.
+            // A name with `=` after it is the next property.
             if let Some(unit) = next_name(input)
                 && !input.peek2(Token![=])
                 && !input.peek2(Token![:])
@@ -230,10 +231,10 @@ impl Expression {
         Err(expected(input, Self::WHAT))
     }
 
-    /// Wording for a value where one is missing.
+    /// Name of a missing value in messages.
     const WHAT: &'static str = "a number or the name of a parameter";
 
-    /// The opposite if `negative`, by a minus at `sign`.
+    /// Returns the value, with the opposite sign if `negative`; `sign` is the span of the minus.
     fn signed(self, negative: bool, sign: Span) -> Self {
         if !negative {
             return self;
@@ -245,7 +246,7 @@ impl Expression {
     }
 }
 
-/// The only member, or all of them.
+/// Returns the only member, or all members as the error if there are several.
 fn single(mut members: Vec<Expression>) -> Result<Expression, Vec<Expression>> {
     match (members.pop(), members.is_empty()) {
         (Some(only), true) => Ok(only),
@@ -256,7 +257,7 @@ fn single(mut members: Vec<Expression>) -> Result<Expression, Vec<Expression>> {
     }
 }
 
-/// The place from `start` to the end of the last member.
+/// Returns the span from `start` to the end of the last member.
 fn spanning(start: Span, members: &[Expression]) -> Span {
     members
         .last()
@@ -264,7 +265,7 @@ fn spanning(start: Span, members: &[Expression]) -> Span {
         .unwrap_or(start)
 }
 
-/// Takes a punctuation mark that was peeked at.
+/// Consumes a punctuation mark that is known to be the next token.
 fn punctuation<T: syn::parse::Parse>(input: ParseStream<'_>) -> Result<(), ListFault> {
     match input.parse::<T>() {
         Ok(_) => Ok(()),
@@ -272,12 +273,12 @@ fn punctuation<T: syn::parse::Parse>(input: ParseStream<'_>) -> Result<(), ListF
     }
 }
 
-/// Takes a minus where there is one.
+/// Consumes a minus if there is one, and returns true if there was.
 fn minus(input: ParseStream<'_>) -> bool {
     input.peek(Token![-]) && input.parse::<Token![-]>().is_ok()
 }
 
-/// The tokens in parentheses and the place where they end.
+/// Parses parentheses; returns the tokens in them and the span of the closing one.
 fn parenthesised(input: ParseStream<'_>) -> Result<(TokenStream, Span), ListFault> {
     input
         .step(|cursor| match cursor.group(Delimiter::Parenthesis) {
@@ -287,7 +288,8 @@ fn parenthesised(input: ParseStream<'_>) -> Result<(TokenStream, Span), ListFaul
         .map_err(|_| expected(input, "`(`"))
 }
 
-/// The tokens of a group without delimiters, where one comes next.
+/// Parses a group without delimiters; returns its tokens, or `None` if the next token is not such a
+/// group.
 fn invisible_group(input: ParseStream<'_>) -> Option<TokenStream> {
     input
         .step(|cursor| match cursor.group(Delimiter::None) {
@@ -297,10 +299,42 @@ fn invisible_group(input: ParseStream<'_>) -> Option<TokenStream> {
         .ok()
 }
 
+/// Returns the text of the next tokens if they are a path with `::`.
+fn path(input: ParseStream<'_>) -> Option<String> {
+    let (mut text, mut rest) = (String::new(), input.cursor());
+    loop {
+        if let Some(behind) = separator(rest) {
+            text.push_str("::");
+            rest = behind;
+        } else if !text.is_empty() && !text.ends_with("::") {
+            break;
+        }
+        let (name, behind) = rest.ident()?;
+        text.push_str(&name.to_string());
+        rest = behind;
+    }
+    text.contains("::").then_some(text)
+}
+
+/// Returns the position after `::`, if it comes next.
+fn separator(cursor: Cursor<'_>) -> Option<Cursor<'_>> {
+    let (first, rest) = cursor.punct()?;
+    let (second, rest) = rest.punct()?;
+    let is_colon = |mark: Punct| mark.as_char() == ':';
+    (is_colon(first) && is_colon(second)).then_some(rest)
+}
+
 /// Parses a decimal literal.
 pub(super) fn number(input: ParseStream<'_>) -> Result<Rational, ListFault> {
     let span = input.span();
-    let text = literal(input, Expression::WHAT)?;
+    // `.5` is two tokens: a point and the digits behind it.
+    let text = match is_leading_point(input) {
+        true => {
+            punctuation::<Token![.]>(input)?;
+            format!("0.{}", literal(input, Expression::WHAT)?)
+        }
+        false => literal(input, Expression::WHAT)?,
+    };
     Rational::parse_decimal(&text).map_err(|error| {
         let message = match error {
             ExactError::Exponent => ValueMessage::NumberRange,
@@ -313,14 +347,28 @@ pub(super) fn number(input: ParseStream<'_>) -> Result<Rational, ListFault> {
     })
 }
 
-/// Returns true if a literal comes next. `true` is one, and refused: a name it is not either.
+/// Returns true if the next tokens are a decimal point and digits after it.
+fn is_leading_point(input: ParseStream<'_>) -> bool {
+    let point = input
+        .cursor()
+        .punct()
+        .filter(|(mark, _)| mark.as_char() == '.');
+    let digits = point.and_then(|(_, behind)| behind.literal());
+    digits.is_some_and(|(digits, _)| digits.to_string().starts_with(|c: char| c.is_ascii_digit()))
+}
+
+/// Returns true if the next token is a literal. `true` counts as a literal, which is refused later:
+/// it is not a name either.
 fn is_literal(input: ParseStream<'_>) -> bool {
+    if is_leading_point(input) {
+        return true;
+    }
     let next = input.cursor();
     let is_bool = |(word, _): (Ident, _)| word == "true" || word == "false";
     next.literal().is_some() || next.ident().is_some_and(is_bool)
 }
 
-/// The text of a literal.
+/// Parses a literal and returns its text. `what` names the literal in a message.
 pub(super) fn literal(input: ParseStream<'_>, what: &'static str) -> Result<String, ListFault> {
     input
         .parse::<Literal>()
@@ -338,7 +386,7 @@ fn exponent(input: ParseStream<'_>) -> Result<i32, ListFault> {
     Ok(if negative { -magnitude } else { magnitude })
 }
 
-/// A whole number; all beyond `u32` count as `u32::MAX`.
+/// Parses a whole number; numbers beyond `u32` become `u32::MAX`.
 pub(super) fn whole_number(
     input: ParseStream<'_>,
     what: &'static str,

@@ -1,4 +1,4 @@
-//! The struct that an attribute stands on, and how deep tokens may nest.
+//! The struct with the attribute, and a limit on the nesting of tokens.
 
 use proc_macro2::{Ident, Span, TokenStream, TokenTree};
 use quote::{ToTokens, quote};
@@ -6,12 +6,12 @@ use quote::{ToTokens, quote};
 use super::{OuterAttribute, StructItem};
 use crate::report::{Faults, SyntaxMessage, TreeMessage};
 
-/// Deepest nesting of brackets and parentheses. A chain of more links is what
-/// `generations` is for.
+/// Deepest accepted nesting of brackets and parentheses. Longer chains of links can be written with
+/// `generations`.
 pub(super) const MAX_NESTING: usize = 64;
 
-/// A token below [`MAX_NESTING`] groups, if there is one. Looks without
-/// recursion, so that parsing afterwards may recurse.
+/// Returns the span of a token inside more than [`MAX_NESTING`] groups, if there is one. Works
+/// without recursion, so that parsing afterwards may recurse.
 pub(super) fn deepest(tokens: &TokenStream) -> Option<Span> {
     let mut open = vec![tokens.clone().into_iter()];
     while let Some(level) = open.last_mut() {
@@ -27,21 +27,20 @@ pub(super) fn deepest(tokens: &TokenStream) -> Option<Span> {
     None
 }
 
-/// The place of a word among tokens.
-fn place_of(word: &str, tokens: TokenStream) -> Option<Span> {
+/// Returns the span of a word among tokens.
+fn span_of(word: &str, tokens: TokenStream) -> Option<Span> {
     tokens.into_iter().find_map(|token| match token {
         TokenTree::Ident(own) if own == word => Some(own.span()),
-        TokenTree::Group(group) => place_of(word, group.stream()),
+        TokenTree::Group(group) => span_of(word, group.stream()),
         _ => None,
     })
 }
 
-/// Types that emitted models name without a path: their type parameter, and
-/// primitive ones.
+/// Types that emitted models name without a path: their type parameter and primitive types.
 const RESERVED_TYPES: [&str; 5] = ["T", "f64", "usize", "bool", "str"];
 
 impl StructItem {
-    /// The struct without fields and attributes, `struct NAME;`.
+    /// Creates a struct without fields and attributes, `struct NAME;`.
     pub(super) fn unit(name: &str) -> Self {
         let ident = Ident::new(name, Span::call_site());
         Self {
@@ -52,15 +51,15 @@ impl StructItem {
         }
     }
 
-    /// The place of a trait among those that are derived for the struct.
+    /// Returns the span of a trait in the struct's `derive` attributes, if it is there.
     pub fn derived(&self, name: &str) -> Option<Span> {
         let derives = self.attrs.iter().filter(|attribute| attribute.is("derive"));
         derives
             .into_iter()
-            .find_map(|derive| place_of(name, derive.tokens.clone()))
+            .find_map(|derive| span_of(name, derive.tokens.clone()))
     }
 
-    /// Returns true if the struct is called as a type that the code of a model names.
+    /// Returns true if the struct has the name of a type that the emitted code uses.
     pub fn is_reserved(&self) -> bool {
         RESERVED_TYPES.iter().any(|name| self.ident == name)
     }
@@ -74,7 +73,7 @@ impl OuterAttribute {
         }
     }
 
-    /// Returns true if that is its name.
+    /// Returns true if the attribute has the given name.
     pub fn is(&self, name: &str) -> bool {
         self.name.as_ref().is_some_and(|own| own == name)
     }
@@ -86,7 +85,7 @@ impl ToTokens for OuterAttribute {
     }
 }
 
-/// Reads the struct.
+/// Parses the struct to which the attribute is attached.
 pub(super) fn parse_item(tokens: TokenStream, report: &mut Faults) -> Option<StructItem> {
     if deepest(&tokens).is_some() {
         report.error(Span::call_site(), SyntaxMessage::NotAStruct);

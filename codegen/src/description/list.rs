@@ -1,4 +1,4 @@
-//! Reading lists, and what stands between their members, past mistakes.
+//! Parsing of lists and of the tokens between their members. Parsing continues after a mistake.
 
 use proc_macro2::{Delimiter, Ident, Spacing, Span, TokenStream, TokenTree};
 use syn::ext::IdentExt as _;
@@ -7,11 +7,11 @@ use syn::{Token, token};
 
 use crate::report::{Diagnostic, Faults, SyntaxMessage};
 
-/// The readable members of a list.
+/// The members of a list that could be parsed.
 pub(super) struct List<T> {
-    /// The members that could be read.
+    /// The members that could be parsed.
     pub(super) members: Vec<T>,
-    /// True if the list has an unreadable member too.
+    /// True if at least one member could not be parsed.
     pub(super) damaged: bool,
 }
 
@@ -24,8 +24,7 @@ impl<T> Default for List<T> {
     }
 }
 
-/// Reads members with commas between them, and after a mistake goes on behind
-/// the next comma.
+/// Parses members separated by commas. After a mistake, parsing continues after the next comma.
 pub(super) fn list<T>(
     tokens: (TokenStream, Span),
     report: &mut Faults,
@@ -42,17 +41,18 @@ pub(super) fn list<T>(
     }
 }
 
-/// Members of one type.
+/// Parses members of one type and collects them.
 struct MemberReader<T, F> {
     members: Vec<T>,
     member: F,
 }
 
-/// Reads members of a type that only it knows: the way through a list is compiled once.
+/// Parser of list members whose type the caller does not know, so that the loop over a list is
+/// compiled only once.
 trait ReadMembers {
     fn read(&mut self, input: ParseStream<'_>, report: &mut Faults) -> Result<(), ListFault>;
 
-    /// Takes back what was read last.
+    /// Removes the last member again.
     fn drop_last(&mut self);
 }
 
@@ -70,7 +70,7 @@ where
     }
 }
 
-/// Returns true if a member could not be read.
+/// Parses all members of a list. Returns true if a member could not be parsed.
 fn read_members(
     (tokens, end): (TokenStream, Span),
     report: &mut Faults,
@@ -94,7 +94,7 @@ fn read_members(
             });
             if let Err(fault) = outcome {
                 damaged = true;
-                report.push(fault.placed(end));
+                report.push(fault.with_span(end));
             }
             while !input.is_empty() && !input.peek(Token![,]) {
                 input.parse::<TokenTree>()?;
@@ -112,7 +112,7 @@ fn read_members(
     damaged
 }
 
-/// Parses all of `tokens`, which end at `end`.
+/// Parses `tokens` to their end, which is at the span `end`.
 pub(super) fn parse_all<T>(
     tokens: (TokenStream, Span),
     parse: impl FnOnce(ParseStream<'_>) -> Result<T, ListFault>,
@@ -123,10 +123,11 @@ pub(super) fn parse_all<T>(
         value = parse.take().map(|parse| parse(input)).transpose()?;
         Ok(())
     })?;
-    value.ok_or_else(|| ListFault::AtEnd("a value").placed(end).into())
+    value.ok_or_else(|| ListFault::AtEnd("a value").with_span(end).into())
 }
 
-/// [`parse_all`] for values of a type that only `parse` knows.
+/// Does the work of [`parse_all`]; the closure keeps the value, so that this function is compiled
+/// only once.
 fn read_all(
     (tokens, end): (TokenStream, Span),
     parse: &mut dyn FnMut(ParseStream<'_>) -> Result<(), ListFault>,
@@ -141,16 +142,18 @@ fn read_all(
             }
         });
         outcome = Some(parsed);
-        // The mistake is in `outcome`; syn is not to add to it.
+        // The mistake is in `outcome`. Consume the rest, so that syn does not report it a second
+        // time.
         input.parse::<TokenStream>().map(|_| ())
     };
     match (read.parse2(tokens), outcome) {
-        (Ok(()), Some(outcome)) => outcome.map_err(|fault| fault.placed(end).into()),
-        _ => Err(ListFault::AtEnd("a value").placed(end).into()),
+        (Ok(()), Some(outcome)) => outcome.map_err(|fault| fault.with_span(end).into()),
+        _ => Err(ListFault::AtEnd("a value").with_span(end).into()),
     }
 }
 
-/// The tokens in the given delimiters, and the place where they end.
+/// Parses a group with the given delimiters; returns its tokens and the span of the closing
+/// delimiter.
 pub(super) fn group(
     input: ParseStream<'_>,
     delimiter: Delimiter,
@@ -164,12 +167,12 @@ pub(super) fn group(
         .map_err(|_| expected(input, what))
 }
 
-/// A name; keywords are refused later, with a message of their own.
+/// Parses a name. Keywords are accepted here; a later stage refuses them with a clearer message.
 pub(super) fn identifier(input: ParseStream<'_>, what: &'static str) -> Result<Ident, ListFault> {
     Ident::parse_any(input).map_err(|_| expected(input, what))
 }
 
-/// Takes a punctuation mark.
+/// Parses a punctuation mark.
 pub(super) fn take<T: syn::parse::Parse>(
     input: ParseStream<'_>,
     what: &'static str,
@@ -180,13 +183,13 @@ pub(super) fn take<T: syn::parse::Parse>(
     }
 }
 
-/// Name that comes next, if one does.
+/// Returns the next token if it is a name, without consuming it.
 pub(super) fn next_name(input: ParseStream<'_>) -> Option<String> {
     let name = Ident::parse_any(&input.fork()).ok()?;
     Some(name.to_string())
 }
 
-/// Refuses a `:` where a value should follow a name.
+/// Returns an error if `:` follows a name that a value should follow.
 pub(super) fn colon(name: &Ident, input: ParseStream<'_>) -> Result<(), ListFault> {
     if !input.peek(Token![:]) {
         return Ok(());
@@ -195,7 +198,7 @@ pub(super) fn colon(name: &Ident, input: ParseStream<'_>) -> Result<(), ListFaul
     Err(Diagnostic::new(input.span(), SyntaxMessage::Colon { name }).into())
 }
 
-/// Refuses other brackets than those that should come.
+/// Returns an error if the next token opens brackets of the wrong kind.
 pub(super) fn brackets(
     input: ParseStream<'_>,
     what: &'static str,
@@ -213,7 +216,7 @@ pub(super) fn brackets(
     Err(Diagnostic::new(input.span(), SyntaxMessage::Brackets { what, wanted }).into())
 }
 
-/// The next token is not `what` it should be.
+/// Returns the error that the next token is not the expected one, which `what` names.
 pub(super) fn expected(input: ParseStream<'_>, what: &'static str) -> ListFault {
     if input.is_empty() {
         ListFault::AtEnd(what)
@@ -223,7 +226,8 @@ pub(super) fn expected(input: ParseStream<'_>, what: &'static str) -> ListFault 
     }
 }
 
-/// The next token as a message shows it: marks together with what they belong to.
+/// Returns the next token as a message shows it: punctuation together with the tokens that belong
+/// to it.
 pub(super) fn found(input: ParseStream<'_>) -> String {
     let mut text = String::new();
     for token in input.cursor().token_stream() {
@@ -247,7 +251,7 @@ pub(super) fn found(input: ParseStream<'_>) -> String {
     shortened(text)
 }
 
-/// A text as far as a message shows it.
+/// Shortens a text for a message.
 pub(super) fn shortened(text: String) -> String {
     const LONGEST: usize = 40;
     match text.char_indices().nth(LONGEST) {
@@ -256,18 +260,18 @@ pub(super) fn shortened(text: String) -> String {
     }
 }
 
-/// Why a member of a list could not be read.
+/// Reason why a member of a list could not be parsed.
 pub(super) enum ListFault {
-    /// The list ended where this should have followed. Only who opened the list
-    /// knows the place.
+    /// The list ended where the token with this name was expected. Only the caller that opened the
+    /// list knows the span of its end.
     AtEnd(&'static str),
-    /// Something is wrong at a known place.
+    /// A mistake at a known span.
     Found(Diagnostic),
 }
 
 impl ListFault {
-    /// The error, where the list ends at `end`.
-    fn placed(self, end: Span) -> Diagnostic {
+    /// Returns the error with its span, given the span of the end of the list.
+    fn with_span(self, end: Span) -> Diagnostic {
         match self {
             Self::AtEnd(what) => Diagnostic::new(end, SyntaxMessage::Ended { what }),
             Self::Found(diagnostic) => diagnostic,

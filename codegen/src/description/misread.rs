@@ -1,4 +1,5 @@
-//! Members of a description that read as something else than what was meant.
+//! Messages for members of a description that resemble something else, which the user probably
+//! meant.
 
 use proc_macro2::{Delimiter, Ident, TokenTree};
 use syn::buffer::Cursor;
@@ -8,7 +9,7 @@ use syn::{Token, token};
 use super::list::{ListFault, found};
 use crate::report::{Diagnostic, SceneSetting, SyntaxMessage};
 
-/// What starts with no name.
+/// Returns the message for a member that does not start with a name.
 pub(super) fn not_an_entry(input: ParseStream<'_>) -> ListFault {
     let found = found(input);
     let message = match found.starts_with(['"', 'r']) {
@@ -18,7 +19,7 @@ pub(super) fn not_an_entry(input: ParseStream<'_>) -> ListFault {
     Diagnostic::new(input.span(), message).into()
 }
 
-/// A name that neither a shape nor parentheses follow.
+/// Returns the message for a name that is followed neither by a shape nor by parentheses.
 pub(super) fn lone_name(name: &Ident, input: ParseStream<'_>) -> Option<ListFault> {
     if !input.is_empty() && !input.peek(Token![,]) {
         return None;
@@ -32,7 +33,7 @@ pub(super) fn lone_name(name: &Ident, input: ParseStream<'_>) -> Option<ListFaul
     Some(Diagnostic::new(name.span(), message).into())
 }
 
-/// `name = shape(property = value, ...)`, behind the name.
+/// Returns the message for `name = shape(property = value, ...)`. The name has been parsed already.
 pub(super) fn shape_by_equals<'a>(name: &Ident, input: ParseStream<'a>) -> Option<ListFault> {
     let equals = |cursor: Cursor<'a>| cursor.punct().filter(|(mark, _)| mark.as_char() == '=');
     let (_, behind) = equals(input.cursor())?;
@@ -47,8 +48,9 @@ pub(super) fn shape_by_equals<'a>(name: &Ident, input: ParseStream<'a>) -> Optio
     Some(Diagnostic::new(input.span(), message).into())
 }
 
-/// A setting that is misspelt or has the wrong form, behind the name: a link without a
-/// shape has a mass, and whatever has no values is no link.
+/// Returns the message for a setting that is misspelt or has the wrong punctuation; its name has
+/// been parsed already. (A list without values cannot be a link, because a link without a shape
+/// needs a mass.)
 pub(super) fn not_a_link(name: &Ident, input: ParseStream<'_>) -> Option<ListFault> {
     if !input.peek(token::Paren) {
         return None;
@@ -59,7 +61,7 @@ pub(super) fn not_a_link(name: &Ident, input: ParseStream<'_>) -> Option<ListFau
     let is_mass = |token: &TokenTree| matches!(token, TokenTree::Ident(word) if word == "mass");
     let mut pairs = tokens.windows(2);
     let has_mass = pairs.any(|pair| is_mass(&pair[0]) && is_equals(&pair[1]));
-    // `foo(energies)`: a list of names.
+    // `foo(energies)` is a list of names.
     let second = tokens.get(1);
     let has_names = matches!(tokens.first(), Some(TokenTree::Ident(_)))
         && second.is_none_or(|token| matches!(token, TokenTree::Punct(p) if p.as_char() == ','));

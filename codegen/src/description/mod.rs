@@ -1,5 +1,4 @@
-//! The description as written: the grammar of the attribute, with source
-//! positions.
+//! The description as written: grammar of the attribute, and its syntax tree with source positions.
 //!
 //! ```text
 //! attribute   = [ entry { "," entry } [ "," ] ]
@@ -33,16 +32,15 @@
 //! function    = name "(" expression ")"
 //! ```
 //!
-//! Unlike in Rust, `^` is a power and binds tightest: `-a^2` is `-(a^2)`. A
-//! `decimal` is read exactly; a `name` is a parameter of the model, the same
-//! name being the same parameter everywhere; where `parameters(...)` declares them, no
-//! other name is one. In observables a `name` is a symbol
-//! of the scene (an angle, a velocity, a momentum, a parameter, a constant of the
-//! model), and only they and drives have functions. A pair is a point of a link,
-//! `(along, lateral)`; a single value there means `(along, 0)`. Copies of a link may differ:
-//! `each(...)` holds a value for each. Which properties,
-//! requests, symbols and functions there are, and what they mean, is the
-//! business of [`scene`](crate::scene); this module knows their shape only.
+//! Unlike in Rust, `^` is a power and binds tightest: `-a^2` is `-(a^2)`. A `decimal` is read
+//! exactly. A `name` is a parameter of the model; equal names are the same parameter. If
+//! `parameters(...)` declares parameters, every other name is an error. In observables a `name` is
+//! a symbol of the scene (an angle, a velocity, a momentum, a parameter, a constant of the model).
+//! Only observables and drives may contain functions. A pair is a point of a link, `(along,
+//! lateral)`, in metres; a single value there means `(along, 0)`. Copies of a link may differ:
+//! `each(...)` holds one value per copy. This module knows only the syntax. The module
+//! [`scene`](crate::scene) defines which properties, requests, symbols and functions exist, and
+//! their meaning.
 
 mod expression;
 mod item;
@@ -60,80 +58,81 @@ pub use expression::{Expression, ExpressionKind};
 pub use parse::parse;
 pub use source::parse_text;
 
-/// The name of time in `drive(...)`, s.
+/// Name of the time in `drive(...)`, in s.
 pub const TIME: &str = "t";
 
-/// An attribute and the struct it stands on.
+/// An attribute and the struct to which it is attached.
 #[derive(Debug, Clone)]
 pub struct Description {
-    /// The struct.
+    /// The struct to which the attribute is attached.
     pub item: StructItem,
     /// The value of `crate = ...`.
     pub crate_path: Option<CratePath>,
-    /// `gravity = ...`, m/s².
+    /// Value of `gravity = ...`, in m/s².
     pub gravity: Option<Property>,
-    /// `solve = ...`: the two names.
+    /// The word `solve` and its value.
     pub solve: Option<(Ident, Ident)>,
-    /// `code = ...`: the two names.
+    /// The word `code` and its value.
     pub code: Option<(Ident, Ident)>,
-    /// `parameters(...)`.
+    /// Parameters declared by `parameters(...)`.
     pub parameters: Option<ParameterClause>,
-    /// `drive(...)`.
+    /// Torque and motion given by `drive(...)`.
     pub drive: Option<DriveClause>,
-    /// The links at the top level; a right description has one.
+    /// Links at the top level; a correct description has exactly one.
     pub roots: Vec<Node>,
     /// Members of `emit(...)`.
     pub requests: Vec<Request>,
-    /// Members of `observe(...)`.
+    /// Quantities defined by `observe(...)`.
     pub observables: Vec<ObservableClause>,
-    /// `in_phase(...)` and `locked(...)`.
+    /// Links without coordinates, from `in_phase(...)` and `locked(...)`.
     pub reductions: Reductions,
-    /// `prescribed(...)`, each by itself.
+    /// Links with prescribed motion, one entry per `prescribed(...)`.
     pub prescribed: Vec<PrescribedClause>,
-    /// `between(...)`, `siblings(...)` and `guy(...)`, each by itself.
+    /// Springs and dampers, one entry per `between(...)`, `siblings(...)` and `guy(...)`.
     pub spring_dampers: Vec<SpringDamperClause>,
-    /// True if part of it was unreadable, which is reported already: anything
-    /// that is missing may have stood there.
+    /// True if a part of the description could not be parsed and has been reported. The missing
+    /// part may have contained anything.
     pub damaged: bool,
 }
 
-/// Links whose motion the caller states.
+/// Links whose motion is prescribed by the caller.
 #[derive(Debug, Clone)]
 pub struct PrescribedClause {
     /// The word `prescribed`.
     pub name: Ident,
-    /// The links.
+    /// Names of the links.
     pub links: Vec<Ident>,
-    /// True if part of it was unreadable, which is reported already.
+    /// True if a part could not be parsed and has been reported.
     pub damaged: bool,
 }
 
-/// A spring and friction between links, or between a link and the ground.
+/// A spring and friction between two links, between the copies of a node, or between a link and the
+/// ground.
 #[derive(Debug, Clone)]
 pub struct SpringDamperClause {
     /// The word `between`, `siblings` or `guy`.
     pub name: Ident,
-    /// The links, or the node whose copies are meant.
+    /// The links, or the node whose copies are connected.
     pub links: Vec<Ident>,
     /// Properties of the spring and of the friction.
     pub properties: Vec<Property>,
-    /// True if part of it was unreadable, which is reported already.
+    /// True if a part could not be parsed and has been reported.
     pub damaged: bool,
 }
 
-/// Words of spring-damper clauses: between two links, between the copies of a node, and between a
-/// link and the ground.
+/// Keywords of spring-damper clauses: between two links, between the copies of a node, and between
+/// a link and the ground.
 pub(crate) const BETWEEN: &str = "between";
 pub(crate) const SIBLINGS: &str = "siblings";
 pub(crate) const GUY: &str = "guy";
 
 impl SpringDamperClause {
-    /// Returns true if what acts is straight, along the line between two points.
+    /// Returns true if the forces act along the straight line between two points.
     pub fn is_straight(&self) -> bool {
         self.name == GUY || self.gives("at") || self.gives("repulsion")
     }
 
-    /// Returns true if it has a property of that name.
+    /// Returns true if the clause has a property of the given name.
     pub fn gives(&self, name: &str) -> bool {
         self.properties
             .iter()
@@ -141,12 +140,12 @@ impl SpringDamperClause {
     }
 }
 
-/// Links that get no coordinate of their own.
+/// Links that have no coordinate in the equations.
 #[derive(Debug, Clone, Default)]
 pub struct Reductions {
-    /// Nodes whose copies move alike.
+    /// Nodes whose copies move in phase: their angles are equal.
     pub in_phase: Vec<Ident>,
-    /// Links whose joint does not move.
+    /// Links whose joint is locked.
     pub locked: Vec<LockedClause>,
 }
 
@@ -157,18 +156,18 @@ impl Reductions {
     }
 }
 
-/// A joint that does not move.
+/// A joint locked at a fixed angle.
 #[derive(Debug, Clone)]
 pub struct LockedClause {
-    /// The link.
+    /// Name of the link.
     pub link: Ident,
-    /// Angle of the link to the one that it hangs from, rad.
+    /// Angle between the link and its parent, in rad.
     pub angle: Expression,
 }
 
 impl Description {
-    /// The names that stand where values do, each once, in the order written:
-    /// the parameters of the model.
+    /// Returns the names in values, each once, in the order written. These are the parameters of
+    /// the model.
     pub fn parameter_names(&self) -> Vec<Ident> {
         let mut names: Vec<Ident> = Vec::new();
         let mut visit = |name: &Ident| {
@@ -182,7 +181,7 @@ impl Description {
         for root in &self.roots {
             root.for_each_name(&mut visit);
         }
-        // In a drive, `t` is the time.
+        // Within a drive, `t` is the time and no parameter.
         let mut visit_drive = |name: &Ident| {
             if name != TIME {
                 visit(name);
@@ -198,13 +197,13 @@ impl Description {
     }
 }
 
-/// Path of the runtime crate in the user's crate: `::branched_pendulum`, or
-/// what `crate = ...` says.
+/// Path of the runtime crate as seen from the user's crate: `::branched_pendulum`, or the value of
+/// `crate = ...`.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct CratePath {
     /// True if the path starts with `::`.
     pub global: bool,
-    /// The names between the `::`, as written.
+    /// Identifiers between the `::`, as written.
     pub segments: Vec<String>,
 }
 
@@ -217,75 +216,74 @@ impl Default for CratePath {
     }
 }
 
-/// The struct under the attribute: what survives of it in the expansion.
+/// The struct to which the attribute is attached, with everything that the expansion repeats.
 #[derive(Debug, Clone)]
 pub struct StructItem {
-    /// Other attributes of the struct, doc comments included.
+    /// Other attributes of the struct, including doc comments.
     pub attrs: Vec<OuterAttribute>,
     /// Visibility of the struct.
     pub vis: TokenStream,
-    /// Name of the struct.
+    /// Name of the struct, which becomes the name of the model.
     pub ident: Ident,
-    /// The item as it was given, to be repeated where nothing else can be
-    /// emitted.
+    /// The unchanged item, which is emitted if there is no expansion.
     pub tokens: TokenStream,
 }
 
-/// An attribute of the struct: repeated, and not understood.
+/// An attribute of the struct, repeated in the expansion without being interpreted.
 #[derive(Debug, Clone)]
 pub struct OuterAttribute {
-    /// Name of the attribute, where it is one word.
+    /// Name of the attribute, if it is a single identifier.
     pub name: Option<Ident>,
-    /// All of it.
+    /// All tokens of the attribute.
     pub tokens: TokenStream,
 }
 
-/// The declaration of all parameters.
+/// Declaration of all parameters, from `parameters(...)`.
 #[derive(Debug, Clone)]
 pub struct ParameterClause {
     /// The declared names.
     pub names: Vec<Ident>,
-    /// True if part of it was unreadable, which is reported already.
+    /// True if a part could not be parsed and has been reported.
     pub damaged: bool,
 }
 
-/// The motion and the torque that are imposed from outside.
+/// External motion and torque, from `drive(...)`.
 #[derive(Debug, Clone)]
 pub struct DriveClause {
     /// The word `drive`.
     pub name: Ident,
-    /// Members of the parentheses.
+    /// Properties in the parentheses.
     pub parts: Vec<Property>,
-    /// True if part of it was unreadable, which is reported already.
+    /// True if a part could not be parsed and has been reported.
     pub damaged: bool,
 }
 
-/// A link, or a rule for several.
+/// A link, or a rule that describes several links.
 #[derive(Debug, Clone)]
 pub struct Node {
     /// Name of the link or of the rule.
     pub name: Ident,
-    /// Word behind the colon: a shape, or `generations`.
+    /// Word after the colon: a shape, or `generations`.
     pub shape: Option<Ident>,
-    /// Members of the parentheses.
+    /// Properties in the parentheses.
     pub properties: Vec<Property>,
-    /// Members of the brackets.
+    /// Children in the brackets.
     pub children: Vec<Node>,
-    /// Number behind the `*`.
+    /// Number of copies, after the `*`.
     pub copies: Option<Multiplicity>,
-    /// True if part of it was unreadable, which is reported already: anything
-    /// that is missing may have stood there.
+    /// True if a part of the link could not be parsed and has been reported. The missing part may
+    /// have contained anything.
     pub damaged: bool,
 }
 
 impl Node {
-    /// Returns true if this link or one below it was unreadable in part.
+    /// Returns true if a part of this link or of a link below it could not be parsed.
     pub fn is_damaged(&self) -> bool {
         self.damaged || self.children.iter().any(Node::is_damaged)
     }
 
     fn for_each_name(&self, visit: &mut impl FnMut(&Ident)) {
-        // The shape and the code of a rule are names, but no values.
+        // The shape and the code of a rule are names, but not values.
         let values = self
             .properties
             .iter()
@@ -299,29 +297,29 @@ impl Node {
     }
 }
 
-/// The number of copies of a link.
+/// Number of copies of a link.
 #[derive(Debug, Clone, Copy)]
 pub struct Multiplicity {
-    /// The number; `u32::MAX` for all larger ones.
+    /// The number; larger numbers become `u32::MAX`.
     pub count: u32,
-    /// Place of the number.
+    /// Span of the number.
     pub span: Span,
 }
 
-/// A name and its value.
+/// A property: a name and its value.
 #[derive(Debug, Clone)]
 pub struct Property {
-    /// The law in whose parentheses it stands, as in `friction(coulomb = 0.1)`.
+    /// Name of the law whose parentheses contain the property, as in `friction(coulomb = 0.1)`.
     pub within: Option<Ident>,
-    /// The name.
+    /// Name of the property.
     pub name: Ident,
-    /// The value.
+    /// Value of the property.
     pub value: Value,
 }
 
 impl Property {
-    /// Name with the parentheses that it stands in; `friction` for the short form and
-    /// the long one, `friction(viscous = c)`.
+    /// Returns the name of the property, preceded by the law that contains it. The result is
+    /// `friction` both for the short form and for `friction(viscous = c)`.
     pub fn key(&self) -> String {
         let name = &self.name;
         match &self.within {
@@ -332,18 +330,18 @@ impl Property {
     }
 }
 
-/// The value of a property.
+/// Value of a property.
 #[derive(Debug, Clone)]
 pub enum Value {
     /// A single value.
     Single(Expression),
     /// A point, `(along, lateral)`.
     Pair(Expression, Expression),
-    /// A value for each copy, `each(first, second)`.
+    /// One value per copy, `each(first, second)`.
     Each {
         /// The values, in the order of the copies.
         values: Vec<Value>,
-        /// Place of the word `each`.
+        /// Span of the word `each`.
         span: Span,
     },
 }
@@ -362,7 +360,7 @@ impl Value {
     }
 }
 
-/// A quantity of the user's own.
+/// An observable: a quantity that the user defines, from `observe(...)`.
 #[derive(Debug, Clone)]
 pub struct ObservableClause {
     /// Name of the quantity.
@@ -371,24 +369,24 @@ pub struct ObservableClause {
     pub value: Expression,
 }
 
-/// Something to emit.
+/// An output requested by `emit(...)`.
 #[derive(Debug, Clone)]
 pub struct Request {
     /// Name of the output.
     pub name: Ident,
-    /// Members of its parentheses; `None` without parentheses.
+    /// Forms in the parentheses; `None` without parentheses.
     pub forms: Option<Vec<RequestForm>>,
-    /// True if some of the forms were unreadable, which is reported already.
+    /// True if some of the forms could not be parsed and have been reported.
     pub damaged: bool,
 }
 
 /// A form of a requested output.
 #[derive(Debug, Clone)]
 pub struct RequestForm {
-    /// Name of the form.
+    /// Name of the form, such as `exact` in `transfer(exact)`.
     pub name: Ident,
-    /// Number behind the `=`.
+    /// Number after the `=`, such as the order in `amplitude = 2`.
     pub value: Option<Multiplicity>,
-    /// The names in its parentheses.
+    /// Names in the parentheses.
     pub members: Option<Vec<Ident>>,
 }

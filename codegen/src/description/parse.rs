@@ -1,7 +1,7 @@
-//! Tokens to [`Description`].
+//! Parser from tokens to a [`Description`].
 //!
-//! A mistake costs the list member it stands in: reading goes on after the next
-//! comma of the same list, so that one missing `=` does not hide what follows.
+//! A mistake costs only the list member that contains it: parsing continues after the next comma of
+//! the same list, so that one missing `=` does not hide later mistakes.
 
 use proc_macro2::{Delimiter, Ident, Span, TokenStream};
 use syn::ext::IdentExt as _;
@@ -23,12 +23,11 @@ use super::{
 };
 use crate::report::{Diagnostic, Faults, SceneSetting, SyntaxMessage};
 
-/// Reads an attribute and the struct that it stands on.
+/// Parses an attribute and the struct to which it is attached.
 ///
-/// `attribute` holds the tokens between the parentheses of the attribute,
-/// `item` all tokens of the item under it. Mistakes go to `report`; what could
-/// be read is returned all the same, and `None` only where the item is no
-/// struct.
+/// `attribute` holds the tokens between the parentheses of the attribute, `item` all tokens of the
+/// item below it. Mistakes are added to `report`, and the parts that could be parsed are returned.
+/// Returns `None` only if the item is not a struct.
 pub fn parse(
     attribute: TokenStream,
     item: TokenStream,
@@ -38,7 +37,7 @@ pub fn parse(
     Some(parse_attribute(attribute, item, report))
 }
 
-/// Reads the attribute of a struct that has been read.
+/// Parses the attribute of a struct that has been parsed already.
 pub(super) fn parse_attribute(
     attribute: TokenStream,
     item: StructItem,
@@ -51,7 +50,7 @@ pub(super) fn parse_attribute(
             damaged: true,
         }
     } else {
-        // The last token stands where the attribute ends.
+        // Errors at the end of the attribute get the span of its last token.
         let last = attribute.clone().into_iter().last();
         let end = last.map_or_else(Span::call_site, |last| last.span());
         list((attribute, end), report, entry)
@@ -76,7 +75,7 @@ pub(super) fn parse_attribute(
     description
 }
 
-/// Puts the members of an attribute in their places.
+/// Sorts the members of an attribute into the fields of the description.
 fn gather(members: Vec<Member>, description: &mut Description, report: &mut Faults) {
     let (mut emits, mut observes) = (0, 0);
     for member in members {
@@ -130,14 +129,14 @@ fn gather(members: Vec<Member>, description: &mut Description, report: &mut Faul
     }
 }
 
-/// Keeps a setting, the last of several, which are a mistake.
+/// Stores a setting. If it is given several times, reports this and keeps the last one.
 fn once<T>(place: &mut Option<T>, value: T, name: &Ident, report: &mut Faults) {
     if place.replace(value).is_some() {
         report.error(name.span(), SyntaxMessage::duplicate_property(name));
     }
 }
 
-/// A member of the attribute.
+/// A member of the attribute, of any kind.
 enum Member {
     Crate(Ident, CratePath),
     Gravity(Property),
@@ -235,7 +234,7 @@ fn entry(input: ParseStream<'_>, report: &mut Faults) -> Result<Member, ListFaul
     }
 }
 
-/// Links, then properties.
+/// Parses a spring-damper clause: links, then properties.
 fn spring_damper(
     name: Ident,
     input: ParseStream<'_>,
@@ -266,8 +265,8 @@ fn spring_damper(
     })
 }
 
-/// Returns true if parentheses without values follow: a link may be called
-/// `parameters` too.
+/// Returns true if the next token is a pair of parentheses without values. This distinguishes the
+/// setting `parameters(...)` from a link with that name.
 fn declares(input: ParseStream<'_>) -> bool {
     match input.cursor().group(Delimiter::Parenthesis) {
         Some((inside, ..)) => {
@@ -278,7 +277,7 @@ fn declares(input: ParseStream<'_>) -> bool {
     }
 }
 
-/// `crate = path`, `gravity = value`, `solve = name` or `code = name`, after the
+/// Parses the rest of `crate = path`, `gravity = value`, `solve = name` or `code = name`, after the
 /// name.
 fn assignment(name: Ident, input: ParseStream<'_>) -> Result<Member, ListFault> {
     if name == "crate" {
@@ -308,7 +307,7 @@ fn assignment(name: Ident, input: ParseStream<'_>) -> Result<Member, ListFault> 
     Err(Diagnostic::new(name.span(), message).into())
 }
 
-/// Names with `::` between them, and perhaps before.
+/// Parses a path: names separated by `::`, with an optional `::` at its beginning.
 fn path(input: ParseStream<'_>) -> Result<CratePath, ListFault> {
     const WHAT: &str = "the path of a crate, as in `::branched_pendulum`";
     let segment = || {
@@ -333,7 +332,7 @@ fn path(input: ParseStream<'_>) -> Result<CratePath, ListFault> {
     Ok(CratePath { global, segments })
 }
 
-/// A link, after its name.
+/// Parses a link, after its name.
 fn node(name: Ident, input: ParseStream<'_>, report: &mut Faults) -> Result<Node, ListFault> {
     let misread = lone_name(&name, input).or_else(|| shape_by_equals(&name, input));
     if let Some(fault) = misread {

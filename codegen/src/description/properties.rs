@@ -1,4 +1,4 @@
-//! Properties of links: their names and values.
+//! Parser of link properties: names and values.
 
 use proc_macro2::{Delimiter, Ident, Span, TokenStream, TokenTree};
 use syn::parse::ParseStream;
@@ -9,7 +9,7 @@ use super::list::{List, ListFault, colon, expected, group, identifier, list, par
 use super::{Expression, Property, Value};
 use crate::report::Faults;
 
-/// A property of a link, or those in the parentheses of a law of friction.
+/// Parses a property of a link, or all properties in the parentheses of a friction law.
 pub(super) fn properties(
     input: ParseStream<'_>,
     report: &mut Faults,
@@ -35,7 +35,7 @@ pub(super) fn property(input: ParseStream<'_>, _: &mut Faults) -> Result<Propert
     property_value(name, input)
 }
 
-/// A property, after its name.
+/// Parses the value of a property, after its name.
 pub(super) fn property_value(name: Ident, input: ParseStream<'_>) -> Result<Property, ListFault> {
     colon(&name, input)?;
     take::<Token![=]>(input, "`=` and a value")?;
@@ -65,7 +65,7 @@ pub(super) fn property_value(name: Ident, input: ParseStream<'_>) -> Result<Prop
     })
 }
 
-/// A single value or a pair.
+/// Parses a single value or a pair.
 fn point(input: ParseStream<'_>) -> Result<Value, ListFault> {
     match pair(input) {
         Some(pair) => parse_all(pair, |input| {
@@ -78,7 +78,8 @@ fn point(input: ParseStream<'_>) -> Result<Value, ListFault> {
     }
 }
 
-/// Takes `each` and its parentheses: the place of the word, and the tokens in them.
+/// Parses `each` and its parentheses. Returns the span of the word and the tokens in the
+/// parentheses, or `None` if there is something else.
 fn each(input: ParseStream<'_>) -> Option<(Span, (TokenStream, Span))> {
     input
         .step(|cursor| match cursor.ident() {
@@ -94,7 +95,8 @@ fn each(input: ParseStream<'_>) -> Option<(Span, (TokenStream, Span))> {
         .ok()
 }
 
-/// Takes parentheses with a comma in them.
+/// Parses parentheses that contain a comma at the top level. Returns their tokens, or `None` if
+/// there is something else.
 fn pair(input: ParseStream<'_>) -> Option<(TokenStream, Span)> {
     let is_comma = |token: TokenTree| matches!(token, TokenTree::Punct(p) if p.as_char() == ',');
     input

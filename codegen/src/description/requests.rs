@@ -1,4 +1,4 @@
-//! Members of `emit(...)` and `observe(...)`.
+//! Parser of the members of `emit(...)` and `observe(...)`.
 
 use proc_macro2::Delimiter;
 use syn::parse::ParseStream;

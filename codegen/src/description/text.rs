@@ -1,4 +1,4 @@
-//! A description as text, in the attribute's own notation, one link a line.
+//! Prints a description in the notation of the attribute, one link per line.
 
 use std::fmt::{self, Display, Formatter};
 
@@ -66,7 +66,7 @@ impl Display for Description {
     }
 }
 
-/// Writes a link and, indented, what hangs from it.
+/// Writes a link and, indented below it, its children.
 fn node(node: &Node, depth: usize, f: &mut Formatter<'_>) -> fmt::Result {
     write!(f, "{:indent$}{}", "", node.name, indent = 4 * depth)?;
     if let Some(shape) = &node.shape {
@@ -85,7 +85,7 @@ fn node(node: &Node, depth: usize, f: &mut Formatter<'_>) -> fmt::Result {
     Ok(())
 }
 
-/// Writes members with commas between them.
+/// Writes members separated by commas.
 fn separated<T: Display>(members: &[T], f: &mut Formatter<'_>) -> fmt::Result {
     for (i, member) in members.iter().enumerate() {
         let comma = if i > 0 { ", " } else { "" };
@@ -158,8 +158,8 @@ impl Display for RequestForm {
 }
 
 impl Display for Expression {
-    /// Every operator but the outermost in parentheses, so that the text shows
-    /// how the tokens were understood.
+    /// Writes every operator except the outermost in parentheses, so that the text shows how the
+    /// tokens were parsed.
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         match &self.kind {
             ExpressionKind::Number(value) => write!(f, "{value}"),
@@ -186,7 +186,7 @@ impl Display for Expression {
     }
 }
 
-/// Writes operands with an operator between them.
+/// Writes operands separated by an operator.
 fn joined(operands: &[Expression], operator: &str, f: &mut Formatter<'_>) -> fmt::Result {
     for (i, value) in operands.iter().enumerate() {
         if i > 0 {

@@ -1,8 +1,8 @@
-//! Emission about sectors besides functions: their list, and the docs of their
+//! Emits the list of sectors (independent sets of symmetric coordinates), and the docs of their
 //! energies.
 
 use super::Emission;
-use crate::functions::{Counting, EnergyDefinition, Purpose};
+use crate::functions::{Counting, EnergyDefinition};
 use crate::mechanics::OrbitMechanics;
 use crate::mechanics::expression::Expr;
 use crate::scene::LinkId;
@@ -10,8 +10,7 @@ use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
 impl Emission<'_> {
-    /// `impl Sectors`: which coordinates form which sector, and how links
-    /// weigh in them.
+    /// Emits `impl Sectors`: the coordinates of each sector, and the weights of the links in them.
     pub(super) fn sectors(&self, sectors: &OrbitMechanics) -> TokenStream {
         let (name, runtime) = (&self.item.ident, self.runtime());
         let list = sectors.sectors.iter().map(|sector| {
@@ -53,22 +52,6 @@ impl Emission<'_> {
         }
     }
 
-    /// Meaning of a function of all sectors.
-    pub(super) fn sectors_meaning(&self, purpose: Purpose) -> Vec<String> {
-        match purpose {
-            Purpose::Budget(definition, _) => self.budget_meaning(definition, "friction and drive"),
-            Purpose::BudgetUnder(definition) => {
-                self.budget_meaning(definition, "friction, drive and the `torques` from outside")
-            }
-            Purpose::SectorTransfers(_) => self.sector_transfers_meaning(None),
-            Purpose::TruncatedSectorTransfers(counting, order) => {
-                self.sector_transfers_meaning(Some((counting, order)))
-            }
-            Purpose::TransferMatrix(_) => self.matrix_meaning(),
-            _ => Vec::new(),
-        }
-    }
-
     fn sector_names(&self) -> String {
         let sectors = self.mechanics.sectors.iter();
         let names: Vec<String> = sectors
@@ -78,11 +61,11 @@ impl Emission<'_> {
         format!("Sectors, in order: {}.", names.join(", "))
     }
 
-    fn budget_meaning(&self, definition: EnergyDefinition, powers: &str) -> Vec<String> {
+    pub(super) fn budget_meaning(&self, definition: EnergyDefinition, powers: &str) -> Vec<String> {
         let [kinetic, formula, latex, closes] = definition_in_words(definition);
         let mut lines = vec![
             format!(
-                "Energies E_s of all sectors (in J), the transfers W_s into them and the powers P_s of {powers} (in W), so that dE_s/dt = W_s + P_s without truncation. The kinetic energy of a sector is taken {kinetic}."
+                "Energies E_s of all sectors (in J), the transfers W_s into them and the powers P_s of {powers} (in W), so that dE_s/dt = W_s + P_s without truncation. The kinetic energy of a sector is computed {kinetic}."
             ),
             String::new(),
         ];
@@ -96,7 +79,7 @@ impl Emission<'_> {
         lines.extend([
             String::new(),
             format!(
-                "`[x]_s` is the part of x in the symmetric coordinates of the sector, links summed; V_s sums to U and has the period 2π in every angle, springs aside. {closes}"
+                "`[x]_s` is the part of x in the symmetric coordinates of the sector, summed over links. The sum of all V_s is U; apart from springs, V_s has the period 2π in every angle. {closes}"
             ),
         ]);
         let lateral = self.mechanics.sectors.as_ref().is_some_and(|sectors| {
@@ -107,7 +90,7 @@ impl Emission<'_> {
         });
         if lateral {
             lines.push(String::new());
-            lines.push("What lateral offsets do to the weight, F sin θ, is counted in the sector of the means; the energies of differences are then not those of the linear modes.".into());
+            lines.push("The part F sin θ of the potential energy, caused by lateral offsets, is counted in the sector of the means; the energies of differences are then not those of the linear modes.".into());
         }
         let mut sectors = self.mechanics.sectors.iter();
         if sectors.any(|sectors| !sectors.chords.is_empty()) {
@@ -119,18 +102,18 @@ impl Emission<'_> {
         lines
     }
 
-    fn sector_transfers_meaning(&self, order: Option<(Counting, u32)>) -> Vec<String> {
+    pub(super) fn sector_transfers_meaning(&self, order: Option<(Counting, u32)>) -> Vec<String> {
         let mut lines = match order {
             None => vec![
-                "Energy transfer W_s = {E_s, H} (in W) into every sector without truncation, by what does it: the kinetic energy of the rest of the tree or its potential energy. E_s as in `budget_canonical`.".to_owned(),
+                "Energy transfer W_s = {E_s, H} (in W) into every sector without truncation, split into the contributions of the kinetic and of the potential energy of the rest of the tree. E_s is defined as in `budget_canonical`.".to_owned(),
             ],
             Some((Counting::Angle, order)) => vec![
-                format!("Energy transfer W_s = {{E_s, H}} (in W) into every sector with the kinetic energy through order {order} in the angles of all differences, momenta whole, as Toda and Ooshida count. The slope of that energy in the differences has one order less. E_s as in `budget_canonical`."),
+                format!("Energy transfer W_s = {{E_s, H}} (in W) into every sector with the kinetic energy through order {order} in the angles of all differences, without expansion in the momenta, as in Toda and Ooshida. The derivatives of that energy by the differences have one order less. E_s is defined as in `budget_canonical`."),
                 String::new(),
-                "In an oscillation, momenta are as small as angles: `sector_transfers_amplitude_…` count both.".into(),
+                "In an oscillation, momenta are as small as angles; `sector_transfers_amplitude_…` count both as small.".into(),
             ],
             Some((Counting::Amplitude, order)) => vec![
-                format!("Energy transfer W_s = {{E_s, H}} (in W) into every sector through order {order} in the amplitude ε of all differences, angles and momenta alike. E_s as in `budget_canonical`. Remainder of order {} in ε, one more where all branchings are into two and none lies within another.", order + 1),
+                format!("Energy transfer W_s = {{E_s, H}} (in W) into every sector through order {order} in the amplitude ε of all differences (both angles and momenta). E_s is defined as in `budget_canonical`. The remainder is of order {} in ε, and one order higher if every branching has two copies and none is within another.", order + 1),
             ],
         };
         lines.push(String::new());
@@ -147,9 +130,9 @@ impl Emission<'_> {
         lines
     }
 
-    fn matrix_meaning(&self) -> Vec<String> {
+    pub(super) fn matrix_meaning(&self) -> Vec<String> {
         let mut lines = vec![
-            "Transfer matrix (in W): row s, column r holds W(r→s), what sector r gives sector s. Energies by Parseval, as in `budget_parseval`.".into(),
+            "Transfer matrix (in W): row s, column r is W(r→s), the power that sector r gives to sector s. Energies are defined by Parseval's identity, as in `budget_parseval`.".into(),
             String::new(),
         ];
         lines.extend(block(
@@ -161,7 +144,8 @@ impl Emission<'_> {
         ));
         lines.extend([
             String::new(),
-            "Antisymmetric to the last bit; row s sums to the transfer into s.".into(),
+            "The matrix is antisymmetric to the last bit; the sum of row s is the transfer into s."
+                .into(),
             String::new(),
             self.sector_names(),
         ]);
@@ -169,7 +153,7 @@ impl Emission<'_> {
     }
 }
 
-/// Formulas as a text block and, folded away, as LaTeX.
+/// Returns formulas as a text block, followed by LaTeX in a collapsed block.
 fn block(text: &[&str], latex: &[&str]) -> Vec<String> {
     let lines = ["```text"].iter().chain(text).chain(&[
         "```",
@@ -182,8 +166,8 @@ fn block(text: &[&str], latex: &[&str]) -> Vec<String> {
     lines.map(|&line| line.to_owned()).collect()
 }
 
-/// From what the kinetic energy of a sector is taken, the energy in text and in LaTeX, and what
-/// the energies of all sectors sum to.
+/// Describes a definition of a sector's kinetic energy: the variables that it uses, the energy in
+/// text and in LaTeX, and the sum of all sectors' energies.
 fn definition_in_words(definition: EnergyDefinition) -> [&'static str; 4] {
     match definition {
         EnergyDefinition::Rest => [
@@ -199,10 +183,10 @@ fn definition_in_words(definition: EnergyDefinition) -> [&'static str; 4] {
             "The energies leave out an interaction energy H − Σ E_s.",
         ],
         EnergyDefinition::Parseval => [
-            "by Parseval from the velocities of the centres of mass",
+            "by Parseval's identity from the velocities of the centres of mass",
             "E_s = Σ (m |[v]_s|² + I [ω]_s²)/2 + V_s",
             "E_s = \\tfrac12 \\sum (m\\,|[v]_s|^2 + I\\,[\\omega]_s^2) + V_s",
-            "The energies sum to H, the transfers to zero, the powers to what friction and drive do to H.",
+            "The energies sum to H, the transfers to zero, the powers to the power of friction and drive on H.",
         ],
         EnergyDefinition::Velocity => [
             "from its velocities and its block of the mass matrix at the configuration",

@@ -1,34 +1,62 @@
-//! Functions of a state on slices, which the runtime makes all its forms of.
+//! Emits functions of a state on slices, from which the runtime derives all other forms.
 
 use super::Emission;
 use super::tokens::ident;
-use proc_macro2::{Ident, TokenStream};
+use crate::functions::{Naming, Purpose, SliceFunction};
+use proc_macro2::{Ident, Literal, TokenStream};
 use quote::quote;
 
-/// A function of the runtime's `functions`, with the names that the code of the model calls its
-/// slices and numbers by.
-pub(super) struct SliceFunction<'a> {
-    pub(super) name: &'a str,
-    /// Slices that are given.
-    pub(super) given: &'a [&'a str],
-    /// Slices that are written.
-    pub(super) results: &'a [&'a str],
-    /// Which of several functions, where there are several.
-    pub(super) index: Option<&'a str>,
-}
-
 impl Emission<'_> {
-    /// `impl Computes`, with the body in the arithmetic of `T`, and where it is another, that
-    /// with a `workspace`.
+    /// Emits `impl Computes` of each function on slices for which the program has an entry: its
+    /// results are NaN for slices of a wrong length and for an index without a function.
+    pub(super) fn slice_functions(&self) -> TokenStream {
+        let mut found: Vec<(SliceFunction, Vec<Purpose>)> = Vec::new();
+        for entry in &self.program.entries {
+            let Some(function) = entry.purpose.slices() else {
+                continue;
+            };
+            match found.iter_mut().find(|(known, _)| *known == function) {
+                Some((_, purposes)) => purposes.push(entry.purpose),
+                None => found.push((function, vec![entry.purpose])),
+            }
+        }
+        let functions = found.into_iter().map(|(function, purposes)| {
+            let mut values = purposes.iter().map(|&of| self.fill(function.results, of));
+            let body = match (function.index, values.next()) {
+                (None, Some(only)) => only,
+                (index, first) => {
+                    let index = index.map(ident);
+                    let arms = first.into_iter().chain(values).enumerate();
+                    let arms = arms.map(|(number, value)| {
+                        let number = Literal::usize_unsuffixed(number);
+                        quote!(#number => #value)
+                    });
+                    let unknown = self.unknown(function.results);
+                    quote! {
+                        match #index {
+                            #(#arms,)*
+                            _ => #unknown,
+                        }
+                    }
+                }
+            };
+            self.computes(purposes[0], function, &body, None)
+        });
+        functions.collect()
+    }
+
+    /// Emits `impl Computes`, with the body in the arithmetic of `T`, and, if it differs, the body
+    /// with a `workspace`. `purpose` is one of those that the function implements.
     pub(super) fn computes(
         &self,
-        function: &SliceFunction<'_>,
+        purpose: Purpose,
+        function: SliceFunction,
         body: &TokenStream,
         with_workspace: Option<&TokenStream>,
     ) -> TokenStream {
         let (name, runtime) = (&self.item.ident, self.runtime());
         let other = super::other_scalar(name);
-        let (at, names) = self.names_of_arguments(function);
+        let (at, names) = self.names_of_arguments(purpose, function);
         let arguments = quote! {
             #at: #runtime::system::At<T>,
             given: &[&[T]],
@@ -73,12 +101,17 @@ impl Emission<'_> {
         }
     }
 
-    /// The name of the argument `at`, which begins with an underscore where nothing reads it, and
-    /// the lines that give slices, time and index their names.
-    fn names_of_arguments(&self, function: &SliceFunction<'_>) -> (Ident, TokenStream) {
+    /// Returns the name of the argument `at`, with a leading underscore if it is not used, and the
+    /// lines that name slices, time and index.
+    fn names_of_arguments(
+        &self,
+        purpose: Purpose,
+        function: SliceFunction,
+    ) -> (Ident, TokenStream) {
         let runtime = self.runtime();
-        let [given, results] =
-            [function.given, function.results].map(|names| names.iter().map(|name| ident(name)));
+        let signature = Naming::of(self.scene, self.mechanics).signature(purpose);
+        let given = signature.slices().map(ident);
+        let results = function.results.iter().map(|name| ident(name));
         let slices = quote! {
             let (&[#(#given),*], [#(#results),*]) = (given, &mut *results) else {
                 return #runtime::emitted::no_answer(results);

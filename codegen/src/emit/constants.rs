@@ -1,4 +1,4 @@
-//! Values of the constants, formed of numbers and parameters.
+//! Emits the computation of the constants from numbers and parameters.
 
 use super::Emission;
 use super::quantities::{enclosed, product, sum};
@@ -9,7 +9,7 @@ use quote::{format_ident, quote};
 use std::collections::{BTreeMap, BTreeSet};
 
 impl Emission<'_> {
-    /// `let` lines for all stored constants, and the struct literal.
+    /// Returns `let` lines for all stored constants, and the struct literal.
     pub(super) fn constants(&self) -> TokenStream {
         if let Some(strips) = &self.program.strips {
             return self.strip_values(strips);
@@ -21,7 +21,7 @@ impl Emission<'_> {
         }
     }
 
-    /// `let` lines for all stored constants, and the names of their fields.
+    /// Returns `let` lines for all stored constants, and the names of the fields that store them.
     fn constant_lines(&self) -> (Vec<TokenStream>, Vec<Ident>) {
         let stored = self.stored_constants();
         let fields: BTreeMap<ConstantId, Ident> =
@@ -32,8 +32,8 @@ impl Emission<'_> {
         (lines, fields.into_values().collect())
     }
 
-    /// Sums and products that several of the stored constants, or one in several places,
-    /// are formed of: written out everywhere, code would grow as a power of their depth.
+    /// Returns the sums and products that stored constants use more than once. If they were written
+    /// out at every use, the length of the code would grow exponentially with their nesting.
     fn shared_constants(&self, stored: &[ConstantId]) -> BTreeSet<ConstantId> {
         let setup = &self.program.setup;
         let is_formed = |definition: &ConstantDefinition| definition.exact.is_none();
@@ -58,8 +58,8 @@ impl Emission<'_> {
         shared.map(|(id, _)| id).collect()
     }
 
-    /// `let` lines for constants, operands first, with the names they have there: those by
-    /// `field`, or their own.
+    /// Returns `let` lines for constants, operands first, with the names of the results: the name
+    /// given by `field`, or the constant's own name.
     pub(super) fn formed_lines(
         &self,
         formed: BTreeSet<ConstantId>,
@@ -104,7 +104,7 @@ impl Emission<'_> {
                     let side = if power > 0 { &mut above } else { &mut below };
                     side.extend(vec![at(id); power.unsigned_abs() as usize]);
                 }
-                // Multiplying by one changes no bit.
+                // A factor of one changes no bit.
                 if number.is_one() && above.len() > 1 {
                     above.remove(0);
                 }

@@ -1,13 +1,13 @@
-//! Lines of emitted docs: prose and formulas of bounded width.
+//! Layout of emitted docs: prose and formulas of bounded width.
 
 use proc_macro2::TokenStream;
 use quote::quote;
 
-/// Prose of emitted docs is wrapped at this width.
+/// Width at which prose of emitted docs is wrapped, in characters.
 const WIDTH: usize = 80;
 
-/// A formula on lines of bounded width, broken before the signs of its sum; within
-/// parentheses only where that does not do.
+/// Breaks a formula into lines of bounded width, before the signs of its sum. It breaks within
+/// parentheses only if that is not enough.
 pub(super) fn broken(formula: &str) -> Vec<String> {
     let fits = |lines: &Vec<String>| lines.iter().all(|line| line.chars().count() <= WIDTH + 4);
     let outermost = broken_within(formula, 0);
@@ -17,7 +17,7 @@ pub(super) fn broken(formula: &str) -> Vec<String> {
     broken_within(formula, 1)
 }
 
-/// Lines of a formula, broken before signs in at most so many parentheses.
+/// Breaks a formula into lines before signs that are nested in at most `most` parentheses.
 fn broken_within(formula: &str, most: i32) -> Vec<String> {
     let mut lines = Vec::new();
     let mut line = String::new();
@@ -49,7 +49,7 @@ fn broken_within(formula: &str, most: i32) -> Vec<String> {
         .collect()
 }
 
-/// Doc comments, prose wrapped, blocks as they are.
+/// Converts lines to doc comments; prose is wrapped, blocks are not.
 pub(super) fn doc_lines(lines: &[String]) -> TokenStream {
     let mut wrapped: Vec<String> = Vec::new();
     let mut in_block = false;
@@ -63,7 +63,7 @@ pub(super) fn doc_lines(lines: &[String]) -> TokenStream {
         let mut current = String::new();
         for word in line.split(' ') {
             let full = current.chars().count() + word.chars().count() >= WIDTH;
-            // At the start of a line a sign would begin a list.
+            // A sign at the start of a line would begin a list.
             if full && !current.is_empty() && !matches!(word, "+" | "-" | "*") {
                 wrapped.push(std::mem::take(&mut current));
             }

@@ -1,4 +1,4 @@
-//! Rustdoc of the emitted items: meaning, units, formulas, cost, source.
+//! Docs of the emitted items: meaning, units, formulas, cost, source.
 
 use super::Emission;
 use super::doc_text::doc_lines;
@@ -8,13 +8,13 @@ use crate::scene::{DescribedLinePotential, Reduction, Solve};
 use proc_macro2::TokenStream;
 
 impl Emission<'_> {
-    /// Returns true if a spring is at rest beside its parent's line, or along a line.
+    /// Returns true if some spring has a rest angle other than zero, or a rest length.
     pub(super) fn has_rest_angles(&self) -> bool {
         let mut torques = self.scene.passive_torques();
         torques.any(|torques| !torques.rest.is_zero()) || !self.scene.translational.is_empty()
     }
 
-    /// The state of potential energy zero, for docs.
+    /// Describes the state in which the potential energy is zero.
     pub(super) fn zero_of_potential(&self) -> &'static str {
         let mut stored = self
             .scene
@@ -24,17 +24,17 @@ impl Emission<'_> {
         let repels = stored.any(|own| matches!(own, DescribedLinePotential::InversePower { .. }));
         match (self.has_rest_angles(), repels) {
             (_, true) => {
-                "that of gravity zero where all are zero, that of springs where they are at rest, \
-                 that of repulsions at infinite distances"
+                "with gravity's part zero if all are zero, the springs' part zero if they are relaxed, \
+                 and the repulsions' part zero at infinite distances"
             }
             (true, false) => {
-                "that of gravity zero where all are zero, that of springs where they are at rest"
+                "with gravity's part zero if all are zero, and the springs' part zero if they are relaxed"
             }
-            (false, false) => "zero where all are zero",
+            (false, false) => "zero if all are zero",
         }
     }
 
-    /// Docs of the model beside its author's words.
+    /// Returns the docs of the model, which follow the docs that its author wrote on the struct.
     pub(super) fn model_docs(&self) -> Vec<String> {
         let scene = self.scene;
         if scene.in_loops() {
@@ -66,7 +66,7 @@ impl Emission<'_> {
         }
         if let Some(Reduction { links, .. }) = &scene.reduction {
             lines.push(String::new());
-            lines.push(format!("A motion of a tree of {links} links: `WHOLE` has which of them move alike, and their angles."));
+            lines.push(format!("The model describes a motion of a tree of {links} links: `WHOLE` contains which of them move together, and their angles."));
         }
         if self.mechanics.drive.is_some() {
             lines.extend(self.drive_docs());
@@ -74,7 +74,8 @@ impl Emission<'_> {
         }
         if !scene.requests.energies && scene.requests.transfer.is_none() {
             lines.push(String::new());
-            lines.push("More can be asked for with `emit(…)` in the attribute.".into());
+            lines
+                .push("Further functions can be requested with `emit(…)` in the attribute.".into());
         }
         lines.extend(self.example());
         lines
@@ -82,11 +83,11 @@ impl Emission<'_> {
 
     pub(super) fn entry_docs(&self, entry: &Entry) -> TokenStream {
         let mut lines = self.meaning(entry.purpose);
-        let told = lines.concat();
+        let reported = lines.concat();
         let untold: Vec<&str> = entry
             .arguments
             .iter()
-            .filter(|argument| !told.contains(&format!("`{}`", argument.name())))
+            .filter(|argument| !reported.contains(&format!("`{}`", argument.name())))
             .filter_map(|argument| argument_meaning(*argument))
             .collect();
         if !untold.is_empty() {
@@ -104,7 +105,7 @@ impl Emission<'_> {
         lines.push(String::new());
         let fused = match self.program.fused(entry).len() {
             0 => String::new(),
-            count => format!("; {count} of the ± take a × along where the scalar fuses"),
+            count => format!("; {count} of the ± can be fused with a × if the scalar supports it"),
         };
         let operations = self.program.operations(&entry.outputs);
         let mut cost = format!("Cost: {operations}{fused}.");
@@ -128,132 +129,162 @@ impl Emission<'_> {
 
     pub(super) fn meaning(&self, purpose: Purpose) -> Vec<String> {
         match purpose {
-            Purpose::Accelerations | Purpose::AccelerationsUnder | Purpose::TaylorCoefficients => {
-                self.motion_meaning(purpose)
+            Purpose::Accelerations => self.accelerations_meaning(),
+            Purpose::AccelerationsUnder => self.accelerations_under_meaning(),
+            Purpose::InverseDynamics => vec![
+                format!("Generalized torques Q (in N m) that give the links the angular accelerations `alpha` (in rad/s²), in addition to gravity, springs, friction and drive: Q = M(θ) θ̈ + b(θ, ω{}). With these torques [`accelerations_under`](Self::accelerations_under) returns `alpha`; in a free motion they are zero.", self.and_time()),
+                String::new(),
+                "Their power is Q·ω. The cost is O(links) if that of the accelerations is (Featherstone, Rigid Body Dynamics Algorithms, 2008, chapter 5).".into(),
+            ],
+            Purpose::TaylorCoefficients => self.taylor_meaning(),
+            Purpose::ToSymmetric => fixed([
+                "Converts absolute angles (in rad) to symmetric coordinates (means and differences of copies), or angular velocities (in rad/s) to their velocities.",
+            ]),
+            Purpose::FromSymmetric => fixed([
+                "Converts symmetric coordinates (in rad) to absolute angles, or their velocities (in rad/s) to angular velocities.",
+            ]),
+            Purpose::SymmetricAccelerations => self.symmetric_accelerations_meaning(),
+            Purpose::SymmetricMomenta => fixed([
+                "Generalized momenta p = M̃(q) q̇ (in kg m²/s) at symmetric `coordinates` (in rad) and their `rates` (in rad/s) (Toda and Ooshida, Eq. 10).",
+            ]),
+            Purpose::SymmetricVelocities => fixed([
+                "Velocities q̇ (in rad/s) of the symmetric `coordinates` (in rad) at `momenta` p (in kg m²/s): solves M̃(q) q̇ = p with M̃ of [`symmetric_accelerations`](Self::symmetric_accelerations).",
+            ]),
+            Purpose::Hamiltonian => fixed([
+                "Energy H = ½ pᵀ M̃⁻¹ p + U (in J) at symmetric `coordinates` (in rad) and `momenta` (in kg m²/s), with M̃ of [`symmetric_accelerations`](Self::symmetric_accelerations).",
+            ]),
+            Purpose::SubHamiltonian(transfer) => self.antiphase_energy_meaning(transfer),
+            Purpose::TruncatedTransfer(transfer, counting, order) => {
+                self.truncation_meaning(transfer, counting, order)
             }
-            Purpose::ToSymmetric
-            | Purpose::FromSymmetric
-            | Purpose::SymmetricAccelerations
-            | Purpose::SymmetricMomenta
-            | Purpose::SymmetricVelocities
-            | Purpose::Hamiltonian => self.symmetric_meaning(purpose),
-            Purpose::SubHamiltonian(_)
-            | Purpose::TruncatedTransfer(..)
-            | Purpose::QuadraticForm(_)
-            | Purpose::ExactTransfer(..)
-            | Purpose::SplitTransfer(..)
-            | Purpose::AntiphaseFrictionPower(..)
-            | Purpose::AntiphaseDrivePower(..)
-            | Purpose::AntiphaseOutsidePower(..) => self.transfer_meaning(purpose),
-
-            Purpose::KineticEnergy
-            | Purpose::PotentialEnergy
-            | Purpose::MassMatrix
-            | Purpose::StiffnessMatrix => self.energy_meaning(purpose),
-            Purpose::AbsoluteMomenta | Purpose::AbsoluteVelocities | Purpose::CanonicalRates => {
-                self.canonical_meaning(purpose)
+            Purpose::QuadraticForm(transfer) => self.quadratic_form_meaning(transfer),
+            Purpose::ExactTransfer(transfer, state) => self.exact_transfer_meaning(transfer, state),
+            Purpose::SplitTransfer(transfer, cause, _) => {
+                self.split_transfer_meaning(transfer, cause)
             }
-            Purpose::Drive
-            | Purpose::RootDrive
-            | Purpose::DrivePower
-            | Purpose::OutsidePower
-            | Purpose::TotalFrictionPower => self.action_meaning(purpose),
-
+            Purpose::AntiphaseFrictionPower(transfer, state) => {
+                self.antiphase_friction_meaning(transfer, state)
+            }
+            Purpose::AntiphaseDrivePower(transfer, _) => self.antiphase_drive_meaning(transfer),
+            Purpose::AntiphaseOutsidePower(transfer, _) => self.antiphase_outside_meaning(transfer),
+            Purpose::KineticEnergy => self.kinetic_energy_meaning(),
+            Purpose::PotentialEnergy => self.potential_energy_meaning(),
+            Purpose::MassMatrix => fixed(MASS_MATRIX),
+            Purpose::StiffnessMatrix => {
+                fixed(["Stiffness matrix ∂²U/∂θ∂θ (in J) by rows, at angles `theta` (in rad)."])
+            }
+            Purpose::AbsoluteMomenta => fixed([
+                "Generalized momenta p = M(θ) ω (in kg m²/s) of the absolute angles `theta` (in rad), at angular velocities `omega` (in rad/s).",
+            ]),
+            Purpose::AbsoluteVelocities => fixed([
+                "Angular velocities ω (in rad/s) at angles `theta` (in rad) and `momenta` p (in kg m²/s): solves M(θ) ω = p with M of [`accelerations`](Self::accelerations).",
+            ]),
+            Purpose::CanonicalRates => self.canonical_rates_meaning(),
+            Purpose::Drive => fixed([
+                "The drive at `time` (in s): acceleration a_x, a_y (in m/s²) of the root's pivot, torque τ (in N m) on the root.",
+            ]),
+            Purpose::RootDrive => self.root_drive_meaning(),
+            Purpose::DrivePower => fixed([
+                "Power Σ Q_i ω_i (in W) of the drive on the whole tree at `time` (in s): dE/dt of E = K + U without friction.",
+            ]),
+            Purpose::OutsidePower => fixed([
+                "Power Q·ω (in W) of external `torques` Q (in N m) at angular velocities `omega` (in rad/s). The rate dE/dt of E = K + U is the sum of this power and the powers of friction and drive.",
+            ]),
+            Purpose::TotalFrictionPower => self.friction_power_meaning(),
             Purpose::Prescribed(set) => self.prescribed_meaning(set),
             Purpose::Observable(n, form) => self.observable_meaning(n, form),
-            Purpose::Budget(..)
-            | Purpose::BudgetUnder(_)
-            | Purpose::SectorTransfers(_)
-            | Purpose::TruncatedSectorTransfers(..)
-            | Purpose::TransferMatrix(_) => self.sectors_meaning(purpose),
-            Purpose::Transverse(_)
-            | Purpose::TransverseMotion(_)
-            | Purpose::TransverseEnergy(_)
-            | Purpose::TransverseTransfer(_)
-            | Purpose::TransverseFriction(..) => self.transverse_meaning(purpose),
-            Purpose::SmallAccelerations
-            | Purpose::SmallAccelerationsUnder
-            | Purpose::SmallEnergy => self.small_meaning(purpose),
-            Purpose::Positions(_)
-            | Purpose::PointVelocities(_)
-            | Purpose::PointTorques(_)
-            | Purpose::LinkProperties => self.positions_meaning(purpose),
-            Purpose::Link(function) => vec![function.meaning().into()],
-            Purpose::Scale(function) => vec![function.meaning().into()],
-            Purpose::Body(function) => vec![function.meaning().into()],
-            Purpose::RootGravity => vec!["Apparent gravity at the root's pivot over l.".into()],
+            Purpose::Budget(definition, _) => self.budget_meaning(definition, "friction and drive"),
+            Purpose::BudgetUnder(definition) => {
+                self.budget_meaning(definition, "friction, drive and external `torques`")
+            }
+            Purpose::SectorTransfers(_) => self.sector_transfers_meaning(None),
+            Purpose::TruncatedSectorTransfers(counting, order) => {
+                self.sector_transfers_meaning(Some((counting, order)))
+            }
+            Purpose::TransferMatrix(_) => self.matrix_meaning(),
+            Purpose::Transverse(sector) => self.transverse_meaning(sector),
+            Purpose::TransverseMotion(sector) => self.transverse_motion_meaning(sector),
+            Purpose::TransverseEnergy(sector) => self.transverse_energy_meaning(sector),
+            Purpose::TransverseTransfer(sector) => self.transverse_transfer_meaning(sector),
+            Purpose::TransverseFriction(..) => {
+                fixed(["Power (in W) of friction and drag on the energy of small differences."])
+            }
+            Purpose::SmallAccelerations => self.small_accelerations_meaning(),
+            Purpose::SmallAccelerationsUnder => fixed(super::small::UNDER_TORQUES),
+            Purpose::SmallEnergy => self.small_energy_meaning(),
+            Purpose::NormalForm(function) => self.normal_form_meaning(function),
+            Purpose::Positions(kind) => self.point_positions_meaning(kind),
+            Purpose::PointVelocities(kind) => self.point_velocities_meaning(kind),
+            Purpose::PointTorques(kind) => self.point_torques_meaning(kind),
+            Purpose::LinkProperties => super::positions::link_properties_meaning(),
+            Purpose::Link(function) => fixed([function.meaning()]),
+            Purpose::Scale(function) => fixed([function.meaning()]),
+            Purpose::Body(function) => fixed([function.meaning()]),
+            Purpose::RootGravity => fixed(["Apparent gravity at the root's pivot, divided by l."]),
         }
     }
 
-    /// Meaning of an energy, or of its matrix of second derivatives.
-    fn energy_meaning(&self, purpose: Purpose) -> Vec<String> {
-        match purpose {
-            Purpose::KineticEnergy => vec![format!("Kinetic energy K = ½ ωᵀ M(θ) ω (in J) at angles `theta` (in rad) and angular velocities `omega` (in rad/s).{}", self.frame_note())],
-            Purpose::PotentialEnergy => {
-                let zero = self.zero_of_potential();
-                vec![format!("Potential energy U (in J) at angles `theta` (in rad), {zero}.")]
-            }
-            Purpose::MassMatrix => vec![
-                "Mass matrix M(θ) (in kg m²) by rows, at angles `theta` (in rad); [`accelerations`](Self::accelerations) shows its elements. Zero between links of different branches.".into(),
-                String::new(),
-                "With K = [`stiffness_matrix`](Self::stiffness_matrix) at an equilibrium, linear modes v of frequency f (in Hz) solve K v = (2πf)² M v.".into(),
-            ],
-            Purpose::StiffnessMatrix => {
-                vec!["Stiffness matrix ∂²U/∂θ∂θ (in J) by rows, at angles `theta` (in rad).".into()]
-            }
-            _ => Vec::new(),
-        }
+    /// Returns the documentation of the kinetic energy.
+    fn kinetic_energy_meaning(&self) -> Vec<String> {
+        vec![format!(
+            "Kinetic energy K = ½ ωᵀ M(θ) ω (in J) at angles `theta` (in rad) and angular velocities `omega` (in rad/s).{}",
+            self.frame_note()
+        )]
     }
 
-    /// Meaning of a function of canonical variables, in absolute angles.
-    fn canonical_meaning(&self, purpose: Purpose) -> Vec<String> {
-        match purpose {
-            Purpose::AbsoluteMomenta => {
-                vec!["Generalized momenta p = M(θ) ω (in kg m²/s) of the absolute angles `theta` (in rad), at angular velocities `omega` (in rad/s).".into()]
-            }
-            Purpose::AbsoluteVelocities => {
-                vec!["Angular velocities ω (in rad/s) at angles `theta` (in rad) and `momenta` p (in kg m²/s): solves M(θ) ω = p with M of [`accelerations`](Self::accelerations).".into()]
-            }
-            Purpose::CanonicalRates => vec![
-                format!("Hamilton's equations: velocities ω = ∂H/∂p (in rad/s), and rates of the momenta {} (in N m), at {}angles `theta` (in rad) and `momenta` (in kg m²/s).", self.momentum_rates_in_words(), self.at_time()),
-                String::new(),
-                "For methods in canonical variables, as `integrate::Gauss` with `system::CanonicalVariables`.".into(),
-            ],
-            _ => Vec::new(),
-        }
+    /// Returns the documentation of the potential energy.
+    fn potential_energy_meaning(&self) -> Vec<String> {
+        let zero = self.zero_of_potential();
+        vec![format!(
+            "Potential energy U (in J) at angles `theta` (in rad), {zero}."
+        )]
     }
 
-    /// Meaning of what acts on the whole tree, or of its power.
-    fn action_meaning(&self, purpose: Purpose) -> Vec<String> {
-        match purpose {
-            Purpose::Drive => vec![
-                "The drive at `time` (in s): acceleration a_x, a_y (in m/s²) of the root's pivot, torque τ (in N m) on the root.".into(),
-            ],
-            Purpose::DrivePower => vec![
-                "Power Σ Q_i ω_i (in W) of the drive on the whole tree at `time` (in s): dE/dt of E = K + U without friction.".into(),
-            ],
-            Purpose::TotalFrictionPower => {
-                let power = match self.has_nonlinear_friction() {
-                    true => "−2 R − Σ D w",
-                    false => "−2 R",
-                };
-                let others = self.other_powers();
-                vec![format!("Power {power} (in W) of friction and drag on the whole tree, never positive: dE/dt of E = K + U is this and {others}.")]
-            }
-            Purpose::RootDrive => {
-                let sign = if self.scene.stands() { "" } else { "−" };
-                vec![format!("What the drive adds to the apparent gravity at the root's pivot at `time` (in s), −a_x/l and {sign}a_y/l, and its torque τ/(m l²) on the root.")]
-            }
-            Purpose::OutsidePower => vec![
-                "Power Q·ω (in W) of `torques` Q (in N m) from outside at angular velocities `omega` (in rad/s): dE/dt of E = K + U is this with the powers of friction and drive.".into(),
-            ],
-            _ => Vec::new(),
-        }
+    /// Returns the documentation of Hamilton's equations in absolute angles.
+    fn canonical_rates_meaning(&self) -> Vec<String> {
+        vec![
+            format!("Hamilton's equations: velocities ω = ∂H/∂p (in rad/s), and rates of the momenta {} (in N m), at {}angles `theta` (in rad) and `momenta` (in kg m²/s).", self.momentum_rates_in_words(), self.at_time()),
+            String::new(),
+            "For methods in canonical variables, such as `integrate::Gauss` with `system::CanonicalVariables`.".into(),
+        ]
+    }
+
+    /// Returns the documentation of the power of friction and drag on the whole tree.
+    fn friction_power_meaning(&self) -> Vec<String> {
+        let power = match self.has_nonlinear_friction() {
+            true => "−2 R − Σ D w",
+            false => "−2 R",
+        };
+        let others = self.other_powers();
+        vec![format!(
+            "Power {power} (in W) of friction and drag on the whole tree, never positive. The rate dE/dt of E = K + U is the sum of this power and {others}."
+        )]
+    }
+
+    /// Returns the documentation of the drive's part of the root's apparent gravity, in a tree in
+    /// loops.
+    fn root_drive_meaning(&self) -> Vec<String> {
+        let sign = if self.scene.stands() { "" } else { "−" };
+        vec![format!(
+            "Contribution of the drive to the apparent gravity at the root's pivot at `time` (in s), −a_x/l and {sign}a_y/l, and torque τ/(m l²) of the drive on the root."
+        )]
     }
 }
 
-/// An argument with its unit, as docs name it; `None` where a function's meaning
-/// says it all.
+/// Documentation of the mass matrix.
+const MASS_MATRIX: [&str; 3] = [
+    "Mass matrix M(θ) (in kg m²) by rows, at angles `theta` (in rad); [`accelerations`](Self::accelerations) shows its elements. Zero between links of different branches.",
+    "",
+    "With K = [`stiffness_matrix`](Self::stiffness_matrix) at an equilibrium, linear modes v of frequency f (in Hz) solve K v = (2πf)² M v.",
+];
+
+/// Converts fixed lines of documentation to strings.
+fn fixed<const N: usize>(lines: [&str; N]) -> Vec<String> {
+    lines.map(str::to_owned).to_vec()
+}
+
+/// Describes an argument with its unit; returns `None` if the docs of the functions describe it
+/// themselves.
 fn argument_meaning(argument: Argument) -> Option<&'static str> {
     match argument {
         Argument::Time => Some("`time` (in s)"),
@@ -262,6 +293,7 @@ fn argument_meaning(argument: Argument) -> Option<&'static str> {
         Argument::Coordinates => Some("symmetric `coordinates` (in rad)"),
         Argument::Rates => Some("their `rates` (in rad/s)"),
         Argument::Alpha => Some("angular accelerations `alpha` (in rad/s²)"),
+        Argument::Actions => Some("`actions` (in J s)"),
         Argument::Difference(_) | Argument::SmallDifferences => {
             Some("differences `difference` (in rad)")
         }
@@ -272,7 +304,18 @@ fn argument_meaning(argument: Argument) -> Option<&'static str> {
         Argument::Torques => Some("`torques` (in N m)"),
         Argument::SmallTorques => Some("`difference_torques` (in N m)"),
         Argument::Prescribed(_) => Some("accelerations `prescribed` (in rad/s²)"),
-        _ => None,
+        Argument::Forces
+        | Argument::Absolute
+        | Argument::Symmetric
+        | Argument::Constants
+        | Argument::Body
+        | Argument::Motion
+        | Argument::Response
+        | Argument::Sums
+        | Argument::Elimination
+        | Argument::Carried
+        | Argument::Pivot
+        | Argument::Given(_) => None,
     }
 }
 

@@ -1,4 +1,4 @@
-//! Docs of driven trees, and the drive as trees in loops take it.
+//! Docs of driven trees, and emission of the drive of trees in loops.
 
 use super::Emission;
 use crate::mechanics::expression::{Expr, NamedFormula, SymbolId};
@@ -7,7 +7,7 @@ use proc_macro2::TokenStream;
 use quote::quote;
 
 impl Emission<'_> {
-    /// The drive in words, for the model's docs.
+    /// Describes the drive for the model's docs.
     pub(super) fn drive_docs(&self) -> Vec<String> {
         let Some(drive) = &self.mechanics.drive else {
             return Vec::new();
@@ -27,7 +27,7 @@ impl Emission<'_> {
         vec![String::new(), format!("Driven by {what}.{frame}")]
     }
 
-    /// Sentence about the frame for the docs of a function of the kinetic
+    /// Returns a sentence about the frame of reference, for the docs of functions of the kinetic
     /// energy.
     pub(super) fn frame_note(&self) -> &'static str {
         if self.has_moving_pivot() {
@@ -37,7 +37,8 @@ impl Emission<'_> {
         }
     }
 
-    /// Arguments before the angles, for the docs of accelerations behind `at `.
+    /// Returns the list of arguments before the angles, which follows the word `at` in the docs of
+    /// accelerations.
     pub(super) fn at_time(&self) -> &'static str {
         if self.mechanics.drive.is_some() {
             "`time` (in s), "
@@ -46,7 +47,7 @@ impl Emission<'_> {
         }
     }
 
-    /// Arguments of b beside the state, for formulas.
+    /// Returns the arguments that b depends on in addition to the state, for formulas.
     pub(super) fn and_time(&self) -> &'static str {
         if self.mechanics.drive.is_some() {
             ", t"
@@ -55,16 +56,17 @@ impl Emission<'_> {
         }
     }
 
-    /// Powers that the conservative transfer leaves out, for its docs.
+    /// Names the powers that the conservative transfer excludes, for its docs.
     pub(super) fn on_top(&self) -> &'static str {
         if self.has_moving_pivot() {
-            "the powers of friction and of the drive come on top"
+            "the powers of friction and of the drive are not included"
         } else {
-            "friction's power comes on top"
+            "the power of friction is not included"
         }
     }
 
-    /// Functions of the powers that change the energy beside that of friction, for docs of this.
+    /// Names the functions of the powers that change the energy in addition to friction, for the
+    /// docs of the latter.
     pub(super) fn other_powers(&self) -> &'static str {
         match (&self.mechanics.drive, self.scene.requests.forces) {
             (Some(_), false) => "`drive_power`",
@@ -78,8 +80,8 @@ impl Emission<'_> {
         drive.is_some_and(|drive| !drive.pivot.is_empty())
     }
 
-    /// The functions of time, by definition: x and y as given, then τ and the
-    /// accelerations that follow.
+    /// Returns the formulas of functions of time: the given position (x, y) of the root's pivot and
+    /// torque τ, then the resulting accelerations.
     pub(super) fn drive_formulas(&self) -> Vec<NamedFormula> {
         let Some(DriveTerms {
             temporal, pivot, ..
@@ -101,13 +103,13 @@ impl Emission<'_> {
         positions.chain(self.rows(&symbols, &values)).collect()
     }
 
-    /// The power of the drive, and the functions of time in it.
+    /// Returns the formulas of the drive's power, and of the functions of time in it.
     pub(super) fn power_formulas(&self, power: &Expr) -> Vec<NamedFormula> {
         let power = std::iter::once(NamedFormula::of_letter("P", power));
         power.chain(self.drive_formulas()).collect()
     }
 
-    /// The drive of a model in loops, in the directions of the equations.
+    /// Emits the drive of a model in loops, with components along the axes that the equations use.
     pub(super) fn inner_drive(&self) -> TokenStream {
         match self.scene.stands() {
             true => quote!({
@@ -118,7 +120,7 @@ impl Emission<'_> {
         }
     }
 
-    /// The drive as the tree takes it.
+    /// Emits the drive as the value that the tree's functions receive.
     pub(super) fn drive_at_time(&self) -> TokenStream {
         match self.mechanics.drive {
             Some(_) => quote!(::core::option::Option::Some(self.root_drive(time))),

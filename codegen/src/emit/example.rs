@@ -1,15 +1,15 @@
-//! The example of use in the docs of a model.
+//! Example in the docs of a model that shows its use.
 
 use super::Emission;
 use super::tokens::count;
 use crate::functions::{Argument, Purpose};
 
-/// Links that the example names.
+/// Largest number of links that the example names.
 const MOST_NAMED: usize = 4;
 
 impl Emission<'_> {
-    /// A few lines that make the model, call it and follow its motion. Rustdoc does not run
-    /// them: from where it would, nobody but the author of the crate knows the path of the model.
+    /// Returns a few lines that create the model, call it and integrate its motion. Rustdoc does
+    /// not run them, because the path of the model in the user's crate is unknown.
     pub(super) fn example(&self) -> Vec<String> {
         let (name, scene) = (&self.item.ident, self.scene);
         let runtime = self.runtime().to_string().replace(' ', "");

@@ -1,4 +1,4 @@
-//! Values as expressions, where they are used.
+//! Emits values as expressions at their use.
 
 use super::Emission;
 use super::names::Locals;
@@ -7,12 +7,12 @@ use crate::program::{FusedSum, Op, ValueId};
 use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 
-/// Fused operations in one another that stand in one line.
+/// Largest nesting of fused operations in one line.
 const MOST_NESTED: usize = 1;
 
 impl Emission<'_> {
-    /// A value where it is used: its name, or its definition in parentheses if
-    /// that binds less tightly than its place asks for.
+    /// Returns the expression by which a value is used: its name or its definition, in parentheses
+    /// if it binds less tightly than `place` requires.
     pub(super) fn bound(&self, id: ValueId, locals: &Locals, place: Binding) -> TokenStream {
         if let Some(name) = locals.names.get(&id) {
             let name = ident(name);
@@ -26,9 +26,9 @@ impl Emission<'_> {
         }
     }
 
-    /// `let name = value;`, in several steps where the value is a long sum of
-    /// products: fused operations in one another are hard to read. A part of the sum that the
-    /// rest takes with a minus has the name of the opposite.
+    /// Returns `let name = value;`. A long sum of products takes several lines, because nested
+    /// fused operations are hard to read. A partial sum that is subtracted from the rest is named
+    /// with the opposite sign.
     pub(super) fn named(&self, id: ValueId, name: &Ident, locals: &Locals) -> TokenStream {
         let mut terms = Vec::new();
         let mut innermost = id;
@@ -66,7 +66,7 @@ impl Emission<'_> {
         lines
     }
 
-    /// `x.mul_add(y, z)`, which is x y + z.
+    /// Returns `x.mul_add(y, z)`, which is x y + z.
     fn fused(&self, fused: &FusedSum, locals: &Locals) -> TokenStream {
         let place = match fused.minus_addend {
             true => Binding::Atom,
@@ -93,8 +93,8 @@ impl Emission<'_> {
         }
     }
 
-    /// A value's definition. Sums and products associate to the left, so that
-    /// only right operands need parentheses.
+    /// Returns the definition of a value. Sums and products associate to the left, so that only
+    /// right operands need parentheses.
     pub(super) fn definition(&self, id: ValueId, locals: &Locals) -> (TokenStream, Binding) {
         if let Some(fused) = locals.fused.get(&id) {
             return (self.fused(fused, locals), Binding::Atom);

@@ -1,13 +1,14 @@
-//! The formulas behind each entry point, for its docs.
+//! Formulas for the docs of each entry point.
 
 use super::Emission;
-use crate::functions::{Cause, Purpose};
+use crate::functions::{Cause, Counting, Purpose};
 use crate::mechanics::expression::{Expr, NamedFormula, Role, SymbolId};
 use crate::mechanics::{BrakingTorque, EnergyParts, Frame, LineMeaning, WrittenOut};
 use std::collections::BTreeSet;
 
 impl Emission<'_> {
-    /// The formulas of a function, and what angles and rates of joints in them are.
+    /// Returns the formulas of a function, with the definitions of the relative angles and rates in
+    /// them.
     pub(super) fn formulas(&self, purpose: Purpose) -> Vec<NamedFormula> {
         let mut formulas = self.own_formulas(purpose);
         let symbols = &self.mechanics.symbols;
@@ -26,14 +27,15 @@ impl Emission<'_> {
         formulas
     }
 
-    /// Adds what symbols of straight springs' lines are, those before them that stand in them.
+    /// Adds the definitions of the symbols that describe the lines of straight springs, each after
+    /// the symbols that it uses.
     fn add_lines(&self, formulas: &mut Vec<NamedFormula>) {
         let (symbols, mut known, mut next) = (&self.mechanics.symbols, BTreeSet::new(), 0);
         while let Some(formula) = formulas.get(next) {
             let mut found = BTreeSet::new();
             formula.right.for_each_symbol(&mut |symbol| {
                 found.insert(symbol);
-                // A root that is spelt out stands for the components.
+                // A root that is spelled out already shows its components.
                 let roots = self.mechanics.lines.values();
                 for meaning in roots {
                     if let LineMeaning::Root { square, shown } = meaning
@@ -79,13 +81,21 @@ impl Emission<'_> {
             Purpose::SymmetricMomenta => symmetric
                 .map(|frame| self.momenta(frame))
                 .unwrap_or_default(),
-            Purpose::SubHamiltonian(_)
-            | Purpose::TruncatedTransfer(..)
-            | Purpose::ExactTransfer(..)
-            | Purpose::SplitTransfer(..)
-            | Purpose::QuadraticForm(_)
-            | Purpose::AntiphaseDrivePower(..)
-            | Purpose::AntiphaseFrictionPower(..) => self.transfer_formulas(purpose),
+            Purpose::SubHamiltonian(n) => {
+                let energy = &mechanics.transfers[n].energy;
+                let sum = Expr::Sum(vec![energy.kinetic.clone(), energy.potential.clone()]);
+                simple("H_d", &sum)
+            }
+            Purpose::TruncatedTransfer(n, counting, order) => {
+                self.truncated_formulas(n, counting, order)
+            }
+            Purpose::ExactTransfer(n, _) => self.transfer(mechanics.transfers[n].exact.as_ref()),
+            Purpose::SplitTransfer(n, cause, _) => self.split_formulas(n, cause),
+            Purpose::QuadraticForm(n) => self.quadratic_form(n),
+            Purpose::AntiphaseDrivePower(n, _) => {
+                self.power_formulas(&mechanics.transfers[n].drive)
+            }
+            Purpose::AntiphaseFrictionPower(n, _) => simple("P", &mechanics.transfers[n].friction),
             Purpose::Drive | Purpose::RootDrive => self.drive_formulas(),
             Purpose::DrivePower => match mechanics.drive.as_ref().and_then(|d| d.power.as_ref()) {
                 Some(power) => self.power_formulas(power),
@@ -105,16 +115,25 @@ impl Emission<'_> {
                 None => Vec::new(),
             },
             Purpose::Observable(n, form) => self.observable_formulas(n, form),
-            Purpose::Positions(_) | Purpose::PointVelocities(_) => self.positions_formulas(purpose),
-            Purpose::Transverse(_)
-            | Purpose::TransverseEnergy(_)
-            | Purpose::TransverseTransfer(_)
-            | Purpose::TransverseFriction(..) => self.transverse_formulas(purpose),
+            Purpose::Positions(kind) => self.positions_formulas(kind, false),
+            Purpose::PointVelocities(kind) => self.positions_formulas(kind, true),
+            Purpose::Transverse(sector) => self.transverse_residuals(sector),
+            Purpose::TransverseEnergy(sector) => {
+                simple("E", &self.transverse_sector(sector).energy)
+            }
+            Purpose::TransverseTransfer(sector) => {
+                simple("W", &self.transverse_sector(sector).transfer)
+            }
+            Purpose::TransverseFriction(sector, _) => {
+                simple("P", &self.transverse_sector(sector).friction)
+            }
             Purpose::SmallEnergy => self.small_formulas(),
+            Purpose::NormalForm(function) => self.normal_form_formulas(function),
             Purpose::SmallAccelerations
             | Purpose::SmallAccelerationsUnder
             | Purpose::AbsoluteVelocities
             | Purpose::AccelerationsUnder
+            | Purpose::InverseDynamics
             | Purpose::TransverseMotion(_)
             | Purpose::Prescribed(_)
             | Purpose::OutsidePower
@@ -138,48 +157,35 @@ impl Emission<'_> {
         }
     }
 
-    /// Formulas of H_d, W and the powers on them.
-    fn transfer_formulas(&self, purpose: Purpose) -> Vec<NamedFormula> {
-        let mechanics = self.mechanics;
-        match purpose {
-            Purpose::SubHamiltonian(n) => {
-                let energy = &mechanics.transfers[n].energy;
-                let sum = Expr::Sum(vec![energy.kinetic.clone(), energy.potential.clone()]);
-                vec![NamedFormula::of_letter("H_d", &sum)]
-            }
-            Purpose::TruncatedTransfer(n, counting, order) if order == counting.bracket_order() => {
-                self.transfer(mechanics.transfers[n].truncated(counting, order))
-            }
-            Purpose::ExactTransfer(n, _) => self.transfer(mechanics.transfers[n].exact.as_ref()),
-            Purpose::SplitTransfer(n, cause, _) => match &mechanics.transfers[n].split {
-                Some([growth, forcing]) => Self::transfer_parts(match cause {
-                    Cause::MeanTree => growth,
-                    Cause::Mismatch => forcing,
-                }),
-                None => Vec::new(),
-            },
-            Purpose::QuadraticForm(n) => match &mechanics.transfers[n].quadratic_form {
-                Some(form) => ["a_pp", "a_pq", "a_qq"]
-                    .iter()
-                    .zip(form)
-                    .map(|(&name, expr)| {
-                        NamedFormula::new(name, format!("a_{{{}}}", &name[2..]), expr)
-                    })
-                    .chain(self.written_out())
-                    .collect(),
-                None => Vec::new(),
-            },
-            Purpose::AntiphaseDrivePower(n, _) => {
-                self.power_formulas(&mechanics.transfers[n].drive)
-            }
-            Purpose::AntiphaseFrictionPower(n, _) => {
-                vec![NamedFormula::of_letter(
-                    "P",
-                    &mechanics.transfers[n].friction,
-                )]
-            }
-            _ => Vec::new(),
+    /// Returns the formulas of the energy transfer W up to an order. Only the order that is a
+    /// single Poisson bracket is short enough to be shown.
+    fn truncated_formulas(&self, n: usize, counting: Counting, order: u32) -> Vec<NamedFormula> {
+        if order != counting.bracket_order() {
+            return Vec::new();
         }
+        self.transfer(self.mechanics.transfers[n].truncated(counting, order))
+    }
+
+    /// Returns the formulas of the part of W that has one cause.
+    fn split_formulas(&self, n: usize, cause: Cause) -> Vec<NamedFormula> {
+        let Some([growth, forcing]) = &self.mechanics.transfers[n].split else {
+            return Vec::new();
+        };
+        Self::transfer_parts(match cause {
+            Cause::MeanTree => growth,
+            Cause::Mismatch => forcing,
+        })
+    }
+
+    /// Returns the formulas of the coefficients of the quadratic form of W.
+    fn quadratic_form(&self, n: usize) -> Vec<NamedFormula> {
+        let Some(form) = &self.mechanics.transfers[n].quadratic_form else {
+            return Vec::new();
+        };
+        let coefficients = ["a_pp", "a_pq", "a_qq"].iter().zip(form);
+        let coefficients = coefficients
+            .map(|(&name, expr)| NamedFormula::new(name, format!("a_{{{}}}", &name[2..]), expr));
+        coefficients.chain(self.written_out()).collect()
     }
 
     fn momentum_rates(&self, frame: &Frame) -> Vec<NamedFormula> {
@@ -211,7 +217,7 @@ impl Emission<'_> {
             .collect()
     }
 
-    /// Entries of M below the diagonal and on it, and the rows of b.
+    /// Returns the lower triangle of the mass matrix M, and the rows of b.
     fn equations(&self, frame: &Frame) -> Vec<NamedFormula> {
         let name = |index: usize| {
             let code = &self.mechanics.symbols.get(frame.coordinates[index]).code;
@@ -236,7 +242,7 @@ impl Emission<'_> {
         formulas
     }
 
-    /// Torques of friction that is not viscous, link by link.
+    /// Returns the formulas of the torques of friction that is not viscous, link by link.
     pub(super) fn braking_formulas(&self, frame: &Frame) -> Vec<NamedFormula> {
         let symbols = &self.mechanics.symbols;
         let formula = |torque: &BrakingTorque| {
@@ -268,7 +274,8 @@ impl Emission<'_> {
         vec![named("W_K", &parts.kinetic), named("W_P", &parts.potential)]
     }
 
-    /// w and D, where they are written out.
+    /// Returns the formulas of the in-phase velocities w and of the determinant D, if the other
+    /// formulas contain them.
     fn written_out(&self) -> Vec<NamedFormula> {
         let Some(expansion) = &self.mechanics.expansion else {
             return Vec::new();

@@ -1,4 +1,4 @@
-//! One function for each entry point.
+//! Emits one function per entry point.
 
 use super::Emission;
 use super::gather::Gathered;
@@ -21,23 +21,15 @@ impl Emission<'_> {
         let result = result_type(&self.runtime(), entry.shape, entry.outputs.len(), count);
         let needed = self.program.needed(&entry.outputs);
         let (body, parts) = self.body(entry, &needed);
-        // Batches and lanes compile the accelerations for wider registers than the rest
-        // of the build uses, which only inlining allows. Those of loops call the
-        // drive.
-        let inline = match entry.purpose {
-            Purpose::Accelerations
-            | Purpose::AccelerationsUnder
-            | Purpose::Prescribed(_)
-            | Purpose::TransverseMotion(_)
-            | Purpose::SmallAccelerations
-            | Purpose::SmallAccelerationsUnder
-            | Purpose::SymmetricAccelerations => {
-                quote!(#[inline(always)])
-            }
-            Purpose::Drive if self.scene.in_loops() => quote!(#[inline(always)]),
-            _ => quote!(#[inline]),
+        // Batches and lanes compile the accelerations for wider registers than the rest of the
+        // build, which only works if they are inlined. The accelerations of loops call the drive.
+        let is_motion = entry.purpose == Purpose::Accelerations || entry.purpose.slices().is_some();
+        let in_loops = entry.purpose == Purpose::Drive && self.scene.in_loops();
+        let inline = match is_motion || in_loops {
+            true => quote!(#[inline(always)]),
+            false => quote!(#[inline]),
         };
-        // Beside the model: clippy's limit is seven.
+        // In addition to the model: clippy's limit is seven arguments.
         let crowded = entry.arguments.len() > 6;
         let allowed = crowded.then(|| quote!(#[allow(clippy::too_many_arguments)]));
         quote! {
@@ -52,7 +44,7 @@ impl Emission<'_> {
         }
     }
 
-    /// `theta: &[T; 3]`.
+    /// Returns the declaration of an argument: `theta: &[T; 3]`.
     pub(super) fn parameter(&self, argument: Argument) -> TokenStream {
         let (name, kind) = (ident(argument.name()), self.argument_type(argument));
         quote!(#name: #kind)
@@ -66,7 +58,7 @@ impl Emission<'_> {
         Literal::usize_unsuffixed(self.argument_length(argument))
     }
 
-    /// Links and coordinates are equally many.
+    /// Returns the length of an array argument. There are as many coordinates as links.
     pub(super) fn argument_length(&self, argument: Argument) -> usize {
         match argument {
             Argument::Difference(sector) | Argument::DifferenceRate(sector) => {
@@ -76,17 +68,41 @@ impl Emission<'_> {
                 self.small_count()
             }
             Argument::Prescribed(set) => self.scene.prescribed[set].links.len(),
-            _ => self.scene.links.len(),
+            Argument::Time => 1,
+            Argument::Actions => self.action_count(),
+            Argument::Theta
+            | Argument::Omega
+            | Argument::AbsoluteMomenta
+            | Argument::Coordinates
+            | Argument::Rates
+            | Argument::Momenta
+            | Argument::Forces
+            | Argument::Alpha
+            | Argument::Torques
+            | Argument::Absolute
+            | Argument::Symmetric => self.scene.links.len(),
+            Argument::Constants
+            | Argument::Body
+            | Argument::Motion
+            | Argument::Response
+            | Argument::Sums
+            | Argument::Elimination
+            | Argument::Carried
+            | Argument::Pivot
+            | Argument::Given(_) => match &self.program.strips {
+                Some(strips) => strips.length(argument),
+                None => unreachable!("`{}` is an argument in loops alone", argument.name()),
+            },
         }
     }
 
-    /// The body of a function that is short.
+    /// Returns the body of a short function.
     pub(super) fn plain_body(&self, entry: &Entry) -> TokenStream {
         let needed = self.program.needed(&entry.outputs);
         self.body(entry, &needed).0
     }
 
-    /// The body of a function, and the parts behind it if it is long.
+    /// Returns the body of a function, and the functions of its parts if it is long.
     fn body(&self, entry: &Entry, needed: &[ValueId]) -> (TokenStream, TokenStream) {
         let written = self.written(entry, needed);
         if self.is_sunk(entry, &written) {
@@ -108,7 +124,7 @@ impl Emission<'_> {
             .arguments
             .iter()
             .filter(|argument| whole != Some(**argument) || self.reads(**argument, &read))
-            .map(|&argument| self.take_apart(argument, &read, &locals));
+            .map(|&argument| self.destructure(argument, &read, &locals));
         let lines = lines.into_iter().map(|line| line.tokens);
         let outputs = entry.outputs.iter();
         let outputs = outputs.map(|&id| self.bound(id, &locals, Binding::Sum));
@@ -121,7 +137,7 @@ impl Emission<'_> {
         (body, TokenStream::new())
     }
 
-    /// A function's lines; the outputs of a long one have names too.
+    /// Returns the lines of a function; in a long function the outputs are named too.
     pub(super) fn written(&self, entry: &Entry, needed: &[ValueId]) -> Written {
         let mut locals = self.locals(entry, needed);
         let gathered = self.gathered(entry, needed);
@@ -144,8 +160,8 @@ impl Emission<'_> {
         }
     }
 
-    /// The `let` lines of a function; first the sines and cosines that are
-    /// asked for at once, and what their angles are formed of.
+    /// Returns the `let` lines of a function. First come the sines and cosines computed together,
+    /// and the values that their angles need.
     pub(super) fn lines(
         &self,
         gathered: &Gathered,
@@ -192,7 +208,7 @@ impl Emission<'_> {
         lines
     }
 
-    /// The line of a value with a name, unless it is handed over.
+    /// Returns the line of a named value, unless the value is an argument.
     fn line(&self, id: ValueId, locals: &Locals) -> Option<Line> {
         if let Op::Input(..) | Op::Constant(_) = self.op(id) {
             return None;
@@ -222,9 +238,8 @@ impl Emission<'_> {
         line
     }
 
-    /// `let [theta_parent, _, theta_child_2] = *theta;`, the elements that are
-    /// `read`.
-    pub(super) fn take_apart(
+    /// Returns `let [theta_parent, _, theta_child_2] = *theta;` with the elements that are `read`.
+    pub(super) fn destructure(
         &self,
         argument: Argument,
         read: &[ValueId],
@@ -263,8 +278,10 @@ impl Emission<'_> {
                 }
             })
             .collect();
+        if !any {
+            return quote!(let _ = #array;);
+        }
         match argument {
-            _ if !any => quote!(let _ = #array;),
             Argument::Motion => self.motion_taken_apart(&elements),
             Argument::Forces => {
                 let vectors = elements.chunks(2).map(|vector| quote!([#(#vector),*]));
@@ -276,11 +293,30 @@ impl Emission<'_> {
             | Argument::Carried
             | Argument::Pivot
             | Argument::Given(_) => quote!(let [#(#elements),*] = #array;),
-            _ => quote!(let [#(#elements),*] = *#array;),
+            Argument::Time
+            | Argument::Theta
+            | Argument::Omega
+            | Argument::AbsoluteMomenta
+            | Argument::Coordinates
+            | Argument::Rates
+            | Argument::Momenta
+            | Argument::Alpha
+            | Argument::Actions
+            | Argument::Difference(_)
+            | Argument::DifferenceRate(_)
+            | Argument::SmallDifferences
+            | Argument::SmallRates
+            | Argument::Torques
+            | Argument::SmallTorques
+            | Argument::Prescribed(_)
+            | Argument::Absolute
+            | Argument::Symmetric
+            | Argument::Constants
+            | Argument::Body => quote!(let [#(#elements),*] = *#array;),
         }
     }
 
-    /// `let LinkMotion { sine, cosine, .. } = link;`
+    /// Returns `let LinkMotion { sine, cosine, .. } = link;`.
     fn motion_taken_apart(&self, elements: &[TokenStream]) -> TokenStream {
         let runtime = self.runtime();
         let array = ident(Argument::Motion.name());
@@ -297,7 +333,7 @@ impl Emission<'_> {
         quote!(let #runtime::tree::LinkMotion { #(#names,)* #rest } = #array;)
     }
 
-    /// `let (sin_parent, cos_parent) = theta_parent.sin_cos();`
+    /// Returns `let (sin_parent, cos_parent) = theta_parent.sin_cos();`.
     fn sin_cos(&self, angle: ValueId, needed: &[ValueId], locals: &Locals) -> TokenStream {
         let name = |op: Op| self.local(&op, needed, locals);
         let sin = name(Op::Sin(angle));
@@ -306,7 +342,7 @@ impl Emission<'_> {
         quote!(let (#sin, #cos) = #angle.sin_cos();)
     }
 
-    /// The name of a value where it is needed, `_` where it is not.
+    /// Returns the name of a value, or `_` if it is not needed.
     pub(super) fn local(&self, op: &Op, needed: &[ValueId], locals: &Locals) -> TokenStream {
         let found = needed.iter().find(|id| self.op(**id) == op);
         match found.and_then(|id| locals.names.get(id)) {

@@ -1,5 +1,5 @@
-//! One call for the sines and cosines of all angles that are arguments or are
-//! formed of them (means, half differences): the runtime computes several at a
+//! Combines the sines and cosines of all angles that are arguments, or that are computed from
+//! arguments (means and half differences), in one call, since the runtime computes several at a
 //! time.
 
 use super::Emission;
@@ -11,24 +11,24 @@ use proc_macro2::{Ident, Span, TokenStream};
 use quote::quote;
 use std::collections::BTreeSet;
 
-/// Angles whose sines and cosines are asked for at once.
+/// Angles whose sines and cosines are computed in one call.
 #[derive(Default)]
 pub(super) struct Gathered {
-    /// Inputs, before anything else.
+    /// Angles that are inputs, which come first.
     pub(super) inputs: Vec<ValueId>,
-    /// The argument that they are, if they are all of one.
+    /// Argument that consists exactly of these inputs, if there is one.
     pub(super) whole: Option<Argument>,
-    /// Angles that something has to be formed for first, with the inputs where
-    /// those are not handed on as a whole.
+    /// Angles that must be computed first. Includes the inputs if these are not passed as a whole
+    /// argument.
     pub(super) formed: Vec<ValueId>,
 }
 
 impl Emission<'_> {
-    /// The angles whose sine or cosine an entry needs and that no other sine or
-    /// cosine goes into, if they are several, in their order.
+    /// Returns the angles whose sine or cosine an entry point needs and that depend on no other
+    /// sine or cosine, in their order. Returns none if there is only one.
     pub(super) fn gathered(&self, entry: &Entry, needed: &[ValueId]) -> Gathered {
         let mut turned = BTreeSet::new();
-        // Values that a sine or cosine goes into.
+        // Values that depend on a sine or cosine.
         let mut late = BTreeSet::new();
         for &id in needed {
             let op = self.op(id);
@@ -75,7 +75,8 @@ impl Emission<'_> {
         }
     }
 
-    /// `let (sines, cosines) = T::sin_cos_each(theta);` and what they are called.
+    /// Returns `let (sines, cosines) = T::sin_cos_each(theta);` and the lines that name the
+    /// elements.
     pub(super) fn sin_cos_each(
         &self,
         angles: &[ValueId],
@@ -101,7 +102,7 @@ impl Emission<'_> {
                 quote!(&[#(#angles),*])
             }
         };
-        // Those that nothing reads have no name.
+        // Elements that nothing reads have no name.
         let taken = |array: &str, elements: &[TokenStream]| {
             let unread = elements.iter().all(|name| name.to_string() == "_");
             let array = Ident::new(array, Span::call_site());
@@ -119,14 +120,14 @@ impl Emission<'_> {
         }
     }
 
-    /// Returns true if the code names an element of an argument.
+    /// Returns true if the emitted code names an element of an argument.
     pub(super) fn reads(&self, argument: Argument, read: &[ValueId]) -> bool {
         read.iter()
             .any(|&id| matches!(*self.op(id), Op::Input(of, _) if of == argument))
     }
 
-    /// The inputs that the code names: all that are needed but those that are
-    /// turned only, where their argument is passed on as it is.
+    /// Returns the inputs that the emitted code names: all needed ones, except angles whose
+    /// argument is passed as a whole and that only occur in sines and cosines.
     pub(super) fn read(
         &self,
         entry: &Entry,

@@ -1,4 +1,4 @@
-//! The formulas of a scene as a document.
+//! The formulas of a scene as a LaTeX document.
 
 use super::Emission;
 use crate::description::StructItem;
@@ -7,11 +7,11 @@ use crate::mechanics::{Mechanics, constant_latex, latex};
 use crate::program::Program;
 use crate::scene::Scene;
 
-/// Terms of a sum on one line.
+/// Number of terms of a sum on one line.
 const TERMS_A_LINE: usize = 4;
 
-/// A page on which long terms, which cannot be broken, find room: 1,877 pt a line, where the longest
-/// of the fixture scenes takes 1,750.
+/// Page layout on which long terms, which cannot be broken, fit: a line has 1,877 pt, and the
+/// longest term of the fixture scenes takes 1,750 pt.
 const PAGE: &str = "paperwidth=70cm,paperheight=40cm,margin=2cm";
 
 /// Letters in the equations of one link.
@@ -64,7 +64,7 @@ pub fn latex_document(
     document
 }
 
-/// A section, empty without equations.
+/// Returns a section; empty without equations.
 fn section(name: &str, introduction: &str, lines: Vec<String>) -> String {
     if lines.is_empty() {
         return String::new();
@@ -75,7 +75,7 @@ fn section(name: &str, introduction: &str, lines: Vec<String>) -> String {
     )
 }
 
-/// An equation, broken before terms of its sum where there are many.
+/// Returns an equation; a sum of many terms is broken before some of them.
 fn aligned(left: &str, right: &str) -> String {
     let mut line = format!("{left} &= ");
     let (mut depth, mut terms) = (0_i32, 0);

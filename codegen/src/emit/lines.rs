@@ -1,4 +1,4 @@
-//! The `let` lines of a function before it is put together.
+//! The `let` lines of a function, before these are assembled to a function body.
 
 use super::gather::Gathered;
 use super::names::Locals;
@@ -6,24 +6,24 @@ use crate::functions::Argument;
 use crate::program::ValueId;
 use proc_macro2::TokenStream;
 
-/// A function of about more lines than this is written in parts.
+/// Approximate number of lines from which a function is split into parts.
 pub(super) const MOST_LINES: usize = 1000;
 
-/// The parts of a function of about more lines than this are compiled one by
-/// one; those of a shorter one as the whole that they are, which runs faster.
+/// Approximate number of lines up to which the parts of a function are compiled as a whole, which
+/// runs faster. The parts of longer functions are compiled separately.
 const MOST_INLINED: usize = 3000;
 
-/// Characters of tokens on a line of formatted code.
+/// Number of characters of tokens per line of formatted code.
 const WIDTH: usize = 60;
 
 /// One `let` line.
 #[derive(Clone)]
 pub(super) struct Line {
-    /// The values that it names.
+    /// Values that the line names.
     pub(super) defines: Vec<ValueId>,
-    /// Values that it is formed from, named or not.
+    /// Values that the line uses, named or not.
     pub(super) reads: Vec<ValueId>,
-    /// An argument that it reads as a whole.
+    /// Argument that the line reads as a whole.
     pub(super) whole: Option<Argument>,
     pub(super) tokens: TokenStream,
     /// Estimated number of lines of formatted code.
@@ -42,12 +42,12 @@ impl Line {
     }
 }
 
-/// A function before it is put together.
+/// The lines of a function, before these are assembled to a function body.
 pub(super) struct Written {
     pub(super) lines: Vec<Line>,
     pub(super) locals: Locals,
     pub(super) gathered: Gathered,
-    /// True if the body is to be written in parts.
+    /// True if the body has to be split into parts.
     pub(super) long: bool,
 }
 
@@ -56,8 +56,8 @@ pub(super) fn is_long(lines: &[Line]) -> bool {
     height(lines) > MOST_LINES
 }
 
-/// Returns true if a function of these lines is compiled as a whole, in parts
-/// or not.
+/// Returns true if a function with these lines is compiled as a whole, even if its source is split
+/// into parts.
 pub(super) fn is_whole(lines: &[Line]) -> bool {
     height(lines) <= MOST_INLINED
 }

@@ -1,4 +1,4 @@
-//! The links of the model: how many there are, and their names.
+//! Emits the number of links of the model and their names.
 
 use super::Emission;
 use super::tokens::count;
@@ -7,17 +7,17 @@ use proc_macro2::TokenStream;
 use quote::quote;
 
 impl Emission<'_> {
-    /// The constants of the type, and `impl Model` with `cast`, the function of that name.
+    /// Emits the constants of the type, and `impl Model` with the function `cast`.
     pub(super) fn model_trait(&self, cast: &TokenStream) -> TokenStream {
         let (name, runtime) = (&self.item.ident, self.runtime());
         let other = super::other_scalar(name);
-        // Generations are too many for a list.
+        // The links of generations are too many for a list.
         let (links, listed, found) = match self.scene.layout {
             Layout::Generations { links, .. } => {
                 let tree = self.tree_type();
                 (links, None, quote!(<#tree>::link_name(index)))
             }
-            _ => {
+            Layout::Unrolled | Layout::Links => {
                 let names = self.scene.links.iter().map(|link| &link.name);
                 let listed = quote! {
                     /// Names of the links, in the order of the angles.

@@ -1,5 +1,5 @@
-//! Program to tokens: the model type, its constructors, one function for each
-//! entry point, the runtime's traits, and the docs that carry the formulas.
+//! Emission of a program as tokens: the model type, its constructors, one function per entry point,
+//! the runtime's traits, and docs that contain the formulas.
 
 mod budget;
 mod computes;
@@ -18,6 +18,7 @@ mod links;
 mod meanings;
 mod model;
 mod names;
+mod normal_form;
 mod observables;
 mod parts;
 mod positions;
@@ -32,10 +33,10 @@ mod strip_between;
 mod strip_bodies;
 mod strip_docs;
 mod strip_equations;
-mod strip_forced;
 mod strip_powers;
 mod strip_rows;
 mod strip_scales;
+mod strip_slices;
 mod strip_tables;
 mod strips;
 mod stub;
@@ -61,7 +62,7 @@ use proc_macro2::{Ident, Span, TokenStream};
 use quote::{format_ident, quote};
 use std::collections::BTreeSet;
 
-/// Everything that emission reads.
+/// Inputs of the emission.
 pub(crate) struct Emission<'a> {
     pub(crate) item: &'a StructItem,
     pub(crate) scene: &'a Scene,
@@ -69,7 +70,7 @@ pub(crate) struct Emission<'a> {
     pub(crate) program: &'a Program,
 }
 
-/// The tokens that stand where the attributed struct stood.
+/// Returns the tokens that replace the attributed struct.
 ///
 /// Equal input gives equal tokens. Linear in the program's length.
 pub fn emit(
@@ -84,48 +85,87 @@ pub fn emit(
         mechanics,
         program,
     };
-    let (model, values) = (emission.model(), emission.values());
-    // The tables of loops are long: they come last.
-    if let Some(strips) = &program.strips {
-        let code = emission.in_strips(strips);
-        let whole = emission.whole_tree();
-        return quote!(#model #code #values #whole);
+    quiet(item, emission.tokens())
+}
+
+/// Returns the tokens with attributes that allow uses of the struct although the user has
+/// deprecated it: only uses in the user's code should warn.
+fn quiet(item: &StructItem, tokens: TokenStream) -> TokenStream {
+    if !item
+        .attrs
+        .iter()
+        .any(|attribute| attribute.is("deprecated"))
+    {
+        return tokens;
     }
-    let functions = program.entries.iter().map(|entry| match entry.purpose {
-        Purpose::TaylorCoefficients => emission.taylor_coefficients(entry),
-        _ => emission.function(entry),
-    });
-    let parts = emission.part_implementations();
-    let accessors = emission.accessors();
-    let traits = emission.traits();
-    let whole = emission.whole_tree();
-    let runtime = emission.runtime();
-    let name = &item.ident;
-    quote! {
-        #model
+    let Ok(mut file) = syn::parse2::<syn::File>(tokens.clone()) else {
+        return tokens;
+    };
+    for emitted in &mut file.items {
+        let attributes = match emitted {
+            syn::Item::Struct(own) if own.ident != item.ident => &mut own.attrs,
+            syn::Item::Impl(own) => &mut own.attrs,
+            syn::Item::Const(own) => &mut own.attrs,
+            syn::Item::Fn(own) => &mut own.attrs,
+            syn::Item::Mod(own) => &mut own.attrs,
+            syn::Item::Static(own) => &mut own.attrs,
+            syn::Item::Trait(own) => &mut own.attrs,
+            syn::Item::Type(own) => &mut own.attrs,
+            // The struct itself and items of other kinds do not name a deprecated type.
+            _ => continue,
+        };
+        attributes.push(syn::parse_quote!(#[allow(deprecated)]));
+    }
+    quote!(#file)
+}
 
-        #values
-
-        // All tokens stand where the attribute does, of many lines: clippy
-        // takes that for arrays whose elements were broken across lines. A binary
-        // may call a few of the functions.
-        #[allow(dead_code, clippy::possible_missing_comma)]
-        impl<T: #runtime::Scalar> #name<T> {
-            #(#functions)*
+impl Emission<'_> {
+    /// Returns all emitted tokens.
+    fn tokens(&self) -> TokenStream {
+        let Self { item, program, .. } = *self;
+        let (model, values) = (self.model(), self.values());
+        // The tables of loops are long, so they come last.
+        if let Some(strips) = &program.strips {
+            let code = self.in_strips(strips);
+            let whole = self.whole_tree();
+            return quote!(#model #code #values #whole);
         }
+        let functions = program.entries.iter().map(|entry| match entry.purpose {
+            Purpose::TaylorCoefficients => self.taylor_coefficients(entry),
+            _ => self.function(entry),
+        });
+        let parts = self.part_implementations();
+        let accessors = self.accessors();
+        let traits = self.traits();
+        let whole = self.whole_tree();
+        let runtime = self.runtime();
+        let name = &item.ident;
+        quote! {
+            #model
 
-        #accessors
+            #values
 
-        #parts
+            // All tokens have the span of the attribute, which covers many lines; clippy takes that
+            // for arrays whose elements are on several lines. A binary may use only a few of the
+            // functions.
+            #[allow(dead_code, clippy::possible_missing_comma)]
+            impl<T: #runtime::Scalar> #name<T> {
+                #(#functions)*
+            }
 
-        #traits
+            #accessors
 
-        #whole
+            #parts
+
+            #traits
+
+            #whole
+        }
     }
 }
 
-/// Returns the equations of one link alone, for trees that other code holds; `None` where
-/// the code is no loop.
+/// Returns the equations of a single link, for trees stored by other code; `None` if the code is
+/// not loops.
 pub fn link_equations(
     item: &StructItem,
     scene: &Scene,
@@ -145,16 +185,16 @@ pub fn link_equations(
 }
 
 impl Emission<'_> {
-    /// The path of the runtime crate.
+    /// Returns the path of the runtime crate.
     fn runtime(&self) -> TokenStream {
         runtime_path(&self.scene.crate_path)
     }
 
-    /// The constants that the model stores: those that functions read, and the
-    /// named ones behind them, in order.
+    /// Returns the constants that the model stores, in order: those that functions read, and the
+    /// named constants that these use.
     fn stored_constants(&self) -> Vec<ConstantId> {
         let mut stored = BTreeSet::new();
-        // The gravity of loops is part of their tree.
+        // In loops, gravity is a part of the tree.
         let entries = self.program.entries.iter();
         for entry in entries.filter(|entry| entry.purpose != Purpose::RootGravity) {
             for value in self.program.needed(&entry.outputs) {
@@ -170,9 +210,9 @@ impl Emission<'_> {
         stored.into_iter().collect()
     }
 
-    /// The field of a stored constant. A parameter that code reads as it is has
-    /// its own name, unless a constant of the scene, or the argument that the
-    /// parameters come in, is called the same.
+    /// Returns the field of a stored constant. A parameter that the code reads directly has its own
+    /// name as field, unless a constant of the scene, or the argument that holds the parameters,
+    /// has that name.
     fn field(&self, id: ConstantId) -> Ident {
         let setup = &self.program.setup;
         let definition = setup.get(id);
@@ -193,7 +233,7 @@ impl Emission<'_> {
         format_ident!("{name}")
     }
 
-    /// The symbol of a constant of the mechanics.
+    /// Returns the symbol of a constant of the mechanics.
     fn letter(&self, index: usize) -> &Symbol {
         let symbol = self.mechanics.constants[index].symbol;
         self.mechanics.symbols.get(symbol)
@@ -204,14 +244,14 @@ impl Emission<'_> {
     }
 }
 
-/// Type parameter beside `T`, where a function goes from one scalar to another:
-/// `S`, unless the model itself is called so.
+/// Returns the type parameter other than `T` of functions that convert between scalars: `S`, unless
+/// the model has that name.
 fn other_scalar(model: &Ident) -> Ident {
     let name = if model == "S" { "R" } else { "S" };
     Ident::new(name, Span::call_site())
 }
 
-/// The tokens of `::branched_pendulum` or of what `crate = …` says.
+/// Returns the tokens of `::branched_pendulum`, or of the value of `crate = …`.
 pub fn runtime_path(path: &crate::description::CratePath) -> TokenStream {
     let mut segments = path
         .segments

@@ -1,4 +1,4 @@
-//! The model type: constants, constructors, accessors.
+//! Emits the model type: constants, constructors, accessors.
 
 use super::Emission;
 use super::doc_text::doc_lines;
@@ -12,7 +12,7 @@ use crate::scene::{
 use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::{format_ident, quote};
 
-/// Traits that the model derives where its author does not.
+/// Traits that the model derives, unless its author derives them.
 const DERIVED: [&str; 4] = ["Clone", "Copy", "Debug", "PartialEq"];
 
 impl Emission<'_> {
@@ -48,7 +48,7 @@ impl Emission<'_> {
         }
     }
 
-    /// The letters that a field stands for, where these are several.
+    /// Returns docs that list all constants stored in the same field, if there are several.
     fn shared_field(&self, id: ConstantId) -> Option<TokenStream> {
         let read = self.program.setup.stand_ins.iter();
         let letters = read.filter(|(_, own)| **own == id);
@@ -63,7 +63,7 @@ impl Emission<'_> {
         let missing = DERIVED
             .iter()
             .filter(|name| self.item.derived(name).is_none())
-            // Loops hold their constants on the heap.
+            // The constants of loops are on the heap.
             .filter(|name| **name != "Copy" || !self.scene.in_loops())
             .map(|name| {
                 let name = Ident::new(name, Span::call_site());
@@ -77,7 +77,7 @@ impl Emission<'_> {
         quote!(#[derive(#(#missing),*)])
     }
 
-    /// Functions that form the constants, of numbers or of parameters.
+    /// Emits the functions that compute the constants from numbers or from parameters.
     pub(super) fn values(&self) -> TokenStream {
         let (name, runtime) = (&self.item.ident, self.runtime());
         let constants = self.constants();
@@ -95,9 +95,9 @@ impl Emission<'_> {
             // As for the functions, see `emit`.
             #[allow(dead_code, clippy::possible_missing_comma)]
             impl<T: #runtime::Scalar> #name<T> {
-                /// The model for the given parameters, taken as they are: for
-                /// scalars without an order by which masses could be checked,
-                /// as lanes and dual numbers. Others have `new`.
+                /// Creates the model for the given parameters without checking
+                /// them, for scalars that cannot be compared, such as lanes and
+                /// dual numbers. For other scalars use `new`.
                 #[must_use]
                 pub fn from_parameters_unchecked(parameters: #parameters<T>) -> Self {
                     #constants
@@ -111,9 +111,9 @@ impl Emission<'_> {
         quote! {
             #[allow(dead_code)]
             impl #name<f64> {
-                /// The model in double precision, its constants rounded once
-                /// from their exact values. `Default` builds it for other
-                /// scalars.
+                /// Creates the model in double precision, with constants that are
+                /// rounded once from their exact values. `Default` creates it for
+                /// other scalars.
                 #[must_use]
                 pub fn new() -> Self {
                     <Self as ::core::default::Default>::default()
@@ -143,14 +143,14 @@ impl Emission<'_> {
             // As for the functions below.
             #[allow(dead_code, clippy::possible_missing_comma)]
             impl<T: #runtime::scalar::Real> #name<T> {
-                /// The model for the given parameters, which are checked in
+                /// Creates the model for the given parameters, which are checked in
                 /// double precision.
                 ///
                 /// # Errors
-                /// A parameter that is not finite or of a magnitude that no pendulum
-                /// has, one that makes a mass, an inertia or a friction coefficient
-                /// impossible or turns gravity round, or ones that make the mass matrix
-                /// singular.
+                /// Fails if a parameter is not finite or its magnitude is out of
+                /// range, if a mass, an inertia or a friction coefficient is
+                /// impossible, if gravity reverses its direction, or if the mass
+                /// matrix is singular.
                 pub fn new(
                     parameters: #parameters<T>,
                 ) -> ::core::result::Result<Self, #runtime::ParameterError> {
@@ -169,7 +169,7 @@ impl Emission<'_> {
         }
     }
 
-    /// The structure that holds the parameters.
+    /// Emits the struct that holds the parameters.
     fn parameters(&self) -> TokenStream {
         let (vis, name) = (&self.item.vis, &self.item.ident);
         let parameters = format_ident!("{}Parameters", name);
@@ -191,7 +191,7 @@ impl Emission<'_> {
         }
     }
 
-    /// Checks that parameters are finite, of which nothing more is required.
+    /// Emits checks that parameters are finite, for parameters without further requirements.
     fn finite_parameters(&self) -> impl Iterator<Item = TokenStream> {
         let runtime = self.runtime();
         let required = |index: usize| {
@@ -211,7 +211,7 @@ impl Emission<'_> {
             })
     }
 
-    /// Parameters by their names, as a file or a command line has them.
+    /// Emits a function that sets parameters by name, as from a file or a command line.
     fn setter(&self) -> TokenStream {
         let (name, runtime) = (&self.item.ident, self.runtime());
         let parameters = format_ident!("{}Parameters", name);
@@ -221,10 +221,10 @@ impl Emission<'_> {
         quote! {
             #[allow(dead_code)]
             impl<T> #parameters<T> {
-                /// Sets the parameter of that name.
+                /// Sets the parameter with this name.
                 ///
                 /// # Errors
-                /// A name that none of them has.
+                /// Fails if no parameter has this name.
                 pub fn set(
                     &mut self,
                     name: &str,
@@ -243,7 +243,7 @@ impl Emission<'_> {
         }
     }
 
-    /// Parameters by name and number, for what fits them to data.
+    /// Emits access to parameters by name and by index, for fits to data.
     fn parametric(&self) -> TokenStream {
         let (name, runtime) = (&self.item.ident, self.runtime());
         let (parameters, other) = (
@@ -283,7 +283,7 @@ impl Emission<'_> {
         }
     }
 
-    /// Returns an error unless the value meets the conditions; a NaN never does.
+    /// Emits a check that returns an error unless a value meets its conditions; NaN never does.
     fn requirement(&self, requirement: &Requirement) -> TokenStream {
         let runtime = self.runtime();
         let value = self.quantity(&requirement.quantity);
@@ -301,7 +301,7 @@ impl Emission<'_> {
             text,
         } = requirement.magnitudes;
         let [least, largest] = [least, largest].map(float);
-        let named = requirement.what_of(&self.scene.parameters);
+        let named = requirement.describe_value(&self.scene.parameters);
         quote! {
             let value = #value;
             #runtime::emitted::#check(#what, value)?;
@@ -309,7 +309,7 @@ impl Emission<'_> {
         }
     }
 
-    /// Refuses parameters that make the mass matrix singular.
+    /// Emits a check that refuses parameters for which the mass matrix is singular.
     fn regularity(&self) -> TokenStream {
         let runtime = self.runtime();
         let double = |quantity: &Quantity| self.quantity(quantity);
@@ -346,7 +346,7 @@ impl Emission<'_> {
         quote!(#runtime::emitted::require_regular(&[#(#bodies),*], [#(#negligible),*])?;)
     }
 
-    /// One reading function for each named constant, apart from the functions of the state.
+    /// Emits one getter per named constant, separate from the functions of the state.
     pub(super) fn accessors(&self) -> TokenStream {
         let stored = self.stored_constants();
         let read = self.program.setup.stand_ins.iter();

@@ -5,31 +5,29 @@ use crate::functions::Argument;
 use crate::program::{Entry, FusedSum, Op, ValueId, constant_names};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Longer generated names say less than a number.
+/// Longest generated name, in characters. A longer one would be less clear than a number.
 const LONGEST_NAME: usize = 48;
 
-/// Operations inside one another in one expression, at most: readers tire, and
-/// the compiler recurses.
+/// Deepest nesting of operations in one expression. It is limited for readers, and because the
+/// compiler recurses.
 const DEEPEST: usize = 16;
 
-/// Names that the accelerations of long trees give to other things than values.
-const RESERVED: [&str; 2] = ["turns", "alpha"];
+/// Names that the accelerations of long trees use for things other than values.
+const RESERVED: [&str; 2] = ["sin_cos", "alpha"];
 
-/// Names of the values of a function that get a `let`.
+/// Names of those values of a function that get a `let`.
 pub(super) struct Locals {
     pub(super) names: BTreeMap<ValueId, String>,
-    /// Sums that are written with a product in them.
+    /// Sums that are written with a fused product.
     pub(super) fused: BTreeMap<ValueId, FusedSum>,
     used: BTreeSet<String>,
-    /// The number after the last one given to each wanted name; no lower one is
-    /// free.
+    /// For each wanted name, the last number appended to it; lower numbers are in use.
     numbers: BTreeMap<String, usize>,
 }
 
 impl Emission<'_> {
-    /// Names every input, every named value and every value used more than
-    /// once; all others are written in place, and so are products that are fused
-    /// with their sums.
+    /// Names every input, every value with a required name and every value that is used more than
+    /// once. All others are written at their use, as are products fused with their sums.
     pub(super) fn locals(&self, entry: &Entry, needed: &[ValueId]) -> Locals {
         let fused = self.program.fused(entry);
         let products: BTreeSet<ValueId> = fused.values().map(|sum| sum.product).collect();
@@ -45,7 +43,7 @@ impl Emission<'_> {
                 .collect(),
             numbers: BTreeMap::new(),
         };
-        // Of what is written in place.
+        // Depth of the values that are written at their use.
         let mut depths = vec![0; self.program.definitions.len()];
         for &id in needed {
             let definition = self.program.definition(id);
@@ -59,7 +57,7 @@ impl Emission<'_> {
             let several = uses[id.0 as usize] > 1 || depth > DEEPEST;
             let wanted = match (&definition.op, &definition.name) {
                 (Op::Constant(_), _) => continue,
-                // The argument itself, of which there is one.
+                // The argument itself is the only value of this kind.
                 (Op::Input(Argument::Time, _), _) => {
                     locals.names.insert(id, Argument::Time.name().to_owned());
                     continue;
@@ -87,7 +85,7 @@ impl Emission<'_> {
         locals
     }
 
-    /// How often each value is used, those in the place of fused products for these.
+    /// Counts the uses of each value; uses by a fused product count as uses by its sum.
     fn uses(&self, entry: &Entry, needed: &[ValueId], products: &BTreeSet<ValueId>) -> Vec<u32> {
         let mut uses = vec![0_u32; self.program.definitions.len()];
         for &id in needed.iter().filter(|id| !products.contains(id)) {
@@ -107,7 +105,7 @@ impl Emission<'_> {
         uses
     }
 
-    /// `theta_parent`, `omega_m`, `p_d`.
+    /// Returns the name of an input: `theta_parent`, `omega_m`, `p_d`.
     pub(super) fn input_name(&self, argument: Argument, index: usize) -> String {
         let mechanics = self.mechanics;
         let symbols = match argument {
@@ -129,13 +127,17 @@ impl Emission<'_> {
             },
             Argument::Alpha => match &mechanics.transverse {
                 Some(transverse) => &transverse.accelerations,
-                None => unreachable!("accelerations are an argument of transverse sectors"),
+                None => return format!("alpha_{}", self.scene.links[index].name),
+            },
+            Argument::Actions => match &mechanics.normal_form {
+                Some(form) => &form.actions,
+                None => unreachable!("actions are arguments of a normal form alone"),
             },
             Argument::Difference(sector) => &self.transverse_sector(sector).differences,
             Argument::DifferenceRate(sector) => &self.transverse_sector(sector).rates,
-            Argument::SmallDifferences | Argument::SmallRates | Argument::SmallTorques => {
-                return self.small_name(argument, index);
-            }
+            Argument::SmallDifferences => return self.small_name("delta", index),
+            Argument::SmallRates => return self.small_name("delta_rate", index),
+            Argument::SmallTorques => return self.small_name("outside_delta", index),
             Argument::Torques => return format!("outside_{}", self.scene.links[index].name),
             Argument::Prescribed(set) => {
                 return format!("prescribed_{}", self.scene.prescribed[set].members[index]);
@@ -151,15 +153,16 @@ impl Emission<'_> {
             }
         };
         let code = &mechanics.symbols.get(symbols[index]).code;
-        match argument {
-            // The transform serves angles and velocities alike.
-            Argument::Absolute | Argument::Symmetric => code.replacen("theta_", "value_", 1),
-            _ => code.clone(),
+        // The transform accepts angles and velocities.
+        let is_either = matches!(argument, Argument::Absolute | Argument::Symmetric);
+        match is_either {
+            true => code.replacen("theta_", "value_", 1),
+            false => code.clone(),
         }
     }
 
-    /// A name by content: the whole formula where that is short enough, else
-    /// the kind of the operation and the first local value in it.
+    /// Returns a name that describes a value: the whole formula if it is short enough; otherwise
+    /// the kind of operation and the first local value in it.
     pub(super) fn described(&self, id: ValueId, locals: &Locals) -> String {
         if let Some(name) = self.describe(id, locals) {
             return name;
@@ -177,7 +180,7 @@ impl Emission<'_> {
         }
     }
 
-    /// Name of the first local value that a value is written with, numbers aside.
+    /// Returns the name of the first local value that a value uses, except numbers.
     fn first_local<'l>(&self, id: ValueId, locals: &'l Locals) -> Option<&'l str> {
         let mut operands = self.op(id).operands();
         operands.find_map(
@@ -189,7 +192,7 @@ impl Emission<'_> {
         )
     }
 
-    /// A name that says how the value is formed, if that is short enough.
+    /// Returns a name that describes the formula of a value, if it is short enough.
     pub(super) fn describe(&self, id: ValueId, locals: &Locals) -> Option<String> {
         let name = |operand: ValueId| match self.op(operand) {
             Op::Constant(constant) => Some(self.program.setup.get(*constant).name.clone()),
@@ -221,7 +224,7 @@ impl Locals {
         self.names.insert(id, name);
     }
 
-    /// A name for the opposite of a value with this name, which no local has.
+    /// Returns an unused name for the value with the opposite sign.
     pub(super) fn opposite(&self, name: &str) -> String {
         match name.strip_prefix("minus_") {
             Some(own) => self.free(own).0,
@@ -229,7 +232,7 @@ impl Locals {
         }
     }
 
-    /// A name that no local has, `wanted` or `wanted` with a number.
+    /// Reserves and returns an unused name: `wanted`, with a number if necessary.
     pub(super) fn fresh(&mut self, wanted: String) -> String {
         let (name, next) = self.free(&wanted);
         self.used.insert(name.clone());
@@ -237,7 +240,7 @@ impl Locals {
         name
     }
 
-    /// A free name, `wanted` or `wanted` with a number, and the number after it.
+    /// Returns an unused name, `wanted` with a number if necessary, and the next number.
     fn free(&self, wanted: &str) -> (String, usize) {
         let mut name = wanted.to_owned();
         let mut next = self.numbers.get(wanted).copied().unwrap_or(2);

@@ -1,4 +1,4 @@
-//! Docs of observables: what they mean and their formulas.
+//! Docs of observables: meaning and formulas.
 
 use super::Emission;
 use crate::functions::ObservableForm;
@@ -39,21 +39,21 @@ impl Emission<'_> {
                         "Rate of change of [`Self::{name}`] (in its unit per second) along the motion, at {state}."
                     ),
                     String::new(),
-                    "By the chain rule: dF/dt = Σ ∂F/∂q q̇ + Σ ∂F/∂p (∂L/∂q + Q) + Σ ∂F/∂q̇ q̈, exact; momenta count as M q̇, accelerations are solved for.".into(),
+                    "Computed exactly by the chain rule: dF/dt = Σ ∂F/∂q q̇ + Σ ∂F/∂p (∂L/∂q + Q) + Σ ∂F/∂q̇ q̈; momenta count as M q̇, and accelerations follow from the equations of motion.".into(),
                 ];
                 if !observable.friction.is_zero() {
                     lines.push(String::new());
                     lines.push(format!(
-                        "With friction and drag, whose part is [`Self::{name}_friction_rate`]."
+                        "Friction and drag are included; their part is [`Self::{name}_friction_rate`]."
                     ));
                 }
                 lines
             }
             ObservableForm::FrictionRate => vec![format!(
-                "The part of [`Self::{name}_rate`] that is due to friction and drag Q, at {state}."
+                "The part of [`Self::{name}_rate`] caused by friction and drag Q, at {state}."
             )],
             ObservableForm::FromMomenta => vec![format!(
-                "{}, at {canonical}: velocities are solved for; SI units.",
+                "{}, at {canonical}. Velocities are found by solving a linear system; SI units.",
                 defined()
             )],
             ObservableForm::RateFromMomenta => vec![
@@ -61,7 +61,7 @@ impl Emission<'_> {
                     "Rate of change of [`Self::{name}`] (in its unit per second) along the motion, at {canonical}."
                 ),
                 String::new(),
-                "By the Poisson bracket {F, H} and friction; velocities in F count as M⁻¹ p, whose chain rule is the solution y of M y = ∂F/∂q̇.".into(),
+                "Computed from the Poisson bracket {F, H} and friction. Velocities in F count as M⁻¹ p; their chain rule uses the solution y of M y = ∂F/∂q̇.".into(),
             ],
         }
     }
@@ -92,7 +92,8 @@ impl Emission<'_> {
         }
     }
 
-    /// The forces and the like that a rate refers to.
+    /// Returns the definitions of the forces and other quantities that occur in the formula of a
+    /// rate.
     fn definitions(&self, observable: &ObservableFormulas, rate: &Expr) -> Vec<NamedFormula> {
         let observables = &self.mechanics.observables;
         let used = match observable.symmetric {

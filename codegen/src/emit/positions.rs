@@ -1,31 +1,59 @@
-//! Where links are: docs and formulas of the functions, and the runtime's trait.
+//! Positions of links: docs and formulas of the functions, and the runtime's trait.
 
 use super::Emission;
-use crate::functions::{LINK_PROPERTIES, PointKind, Purpose};
+use crate::functions::{LINK_PROPERTIES, PointKind};
 use crate::mechanics::expression::{Expr, NamedFormula};
 use crate::mechanics::{LinkPositions, RelativePosition};
 use crate::scene::{Layout, LinkId};
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
+/// Returns the plural noun for a kind of points.
+fn points(kind: PointKind) -> &'static str {
+    match kind {
+        PointKind::Pivot => "the pivots of the links",
+        PointKind::Centre => "the centres of mass",
+        PointKind::End => "the ends of the links",
+    }
+}
+
+/// Returns the documentation of the properties of the links.
+pub(super) fn link_properties_meaning() -> Vec<String> {
+    let mut lines = vec![
+        "Masses, moments of inertia and points of the links, one row for each link:".to_owned(),
+        String::new(),
+    ];
+    let columns = LINK_PROPERTIES.iter().enumerate();
+    lines.extend(columns.map(|(column, meaning)| format!("{}. {meaning}", column + 1)));
+    lines.push(String::new());
+    lines.push(
+        "`Positions::properties_of` returns them by name, with the parent of each link.".into(),
+    );
+    lines
+}
+
 impl Emission<'_> {
-    pub(super) fn positions_meaning(&self, purpose: Purpose) -> Vec<String> {
-        let points = |kind| match kind {
-            PointKind::Pivot => "the pivots of the links",
-            PointKind::Centre => "the centres of mass",
-            PointKind::End => "the ends of the links",
-        };
-        let frame = self.frame_note();
-        match purpose {
-            Purpose::Positions(kind) => vec![format!(
-                "Positions x, y (in m) of {} at angles `theta` (in rad): from the root's pivot, x to the side to which positive angles move a link's end, y upwards.{frame}",
-                points(kind)
-            )],
-            Purpose::PointVelocities(kind) => vec![format!(
-                "Velocities ẋ, ẏ (in m/s) of {} at angles `theta` (in rad) and angular velocities `omega` (in rad/s).{frame}",
-                points(kind)
-            )],
-            Purpose::PointTorques(kind) => vec![
+    /// Returns the documentation of the positions of points.
+    pub(super) fn point_positions_meaning(&self, kind: PointKind) -> Vec<String> {
+        vec![format!(
+            "Positions x, y (in m) of {} at angles `theta` (in rad), relative to the root's pivot; x points to the side to which positive angles move a link's end, y upwards.{}",
+            points(kind),
+            self.frame_note()
+        )]
+    }
+
+    /// Returns the documentation of the velocities of points.
+    pub(super) fn point_velocities_meaning(&self, kind: PointKind) -> Vec<String> {
+        vec![format!(
+            "Velocities ẋ, ẏ (in m/s) of {} at angles `theta` (in rad) and angular velocities `omega` (in rad/s).{}",
+            points(kind),
+            self.frame_note()
+        )]
+    }
+
+    /// Returns the documentation of the torques of forces on points.
+    pub(super) fn point_torques_meaning(&self, kind: PointKind) -> Vec<String> {
+        vec![
                 format!(
                     "Generalized torques Q = Jᵀ F (in N m) of `forces` F_x, F_y (in N) on {} at angles `theta` (in rad): their power is Q·ω.",
                     points(kind)
@@ -36,40 +64,23 @@ impl Emission<'_> {
                 "```text".into(),
                 match kind {
                     PointKind::Pivot => "Q_i = Σ (∂r_c/∂θ_i)·S_c",
-                    _ => "Q_i = (∂r_i/∂θ_i)·F_i + Σ (∂r_c/∂θ_i)·S_c",
+                    PointKind::Centre | PointKind::End => "Q_i = (∂r_i/∂θ_i)·F_i + Σ (∂r_c/∂θ_i)·S_c",
                 }
                 .into(),
                 "```".into(),
                 String::new(),
                 match self.scene.stands() {
-                    true => "A force on another point r of link i has the torques of this force on one of its points, and F × (r − r_i) more on link i, since positive angles turn it with the clock. A couple with the clock on a link is a torque of that link as it is.",
-                    false => "A force on another point r of link i has the torques of this force on one of its points, and (r − r_i) × F more on link i. A couple on a link is a torque of that link as it is.",
+                    true => "A force on another point r of link i has the torques of the same force on the point r_i, plus F × (r − r_i) on link i, because positive angles are clockwise. A clockwise couple on a link is directly a torque on that link.",
+                    false => "A force on another point r of link i has the torques of the same force on the point r_i, plus (r − r_i) × F on link i. A couple on a link is directly a torque on that link.",
                 }
                 .into(),
-            ],
-            _ => {
-                let mut lines = vec![
-                    "Masses, moments of inertia and places of the links, a row each:".to_owned(),
-                    String::new(),
-                ];
-                let columns = LINK_PROPERTIES.iter().enumerate();
-                lines.extend(columns.map(|(column, meaning)| format!("{}. {meaning}", column + 1)));
-                lines.push(String::new());
-                lines.push("`Positions::properties_of` names them, and the parent of each link.".into());
-                lines
-            }
-        }
+            ]
     }
 
-    /// The steps from pivot to pivot, and from there to the points.
-    pub(super) fn positions_formulas(&self, purpose: Purpose) -> Vec<NamedFormula> {
+    /// Returns the formulas of the steps from pivot to pivot, and from the pivots to the points.
+    pub(super) fn positions_formulas(&self, kind: PointKind, rate: bool) -> Vec<NamedFormula> {
         let Some(links) = &self.mechanics.positions else {
             return Vec::new();
-        };
-        let (kind, rate) = match purpose {
-            Purpose::Positions(kind) => (kind, false),
-            Purpose::PointVelocities(kind) => (kind, true),
-            _ => return Vec::new(),
         };
         let part = |relative: &RelativePosition| match rate {
             false => relative.position.clone(),
@@ -90,7 +101,7 @@ impl Emission<'_> {
         formulas
     }
 
-    /// `impl Positions`; NaN for slices of a wrong length.
+    /// Emits `impl Positions`; slices of a wrong length give NaN.
     pub(super) fn positions_trait(&self) -> Option<TokenStream> {
         if !self.scene.requests.positions {
             return None;
@@ -98,7 +109,7 @@ impl Emission<'_> {
         let (name, runtime) = (&self.item.ident, self.runtime());
         let body = match self.scene.layout {
             Layout::Unrolled => self.unrolled_positions(),
-            _ => self.strip_positions(),
+            Layout::Links | Layout::Generations { .. } => self.strip_positions(),
         };
         Some(quote! {
             impl<T: #runtime::Scalar> #runtime::Positions<T> for #name<T> {
@@ -226,7 +237,8 @@ impl Emission<'_> {
     }
 }
 
-/// The mark of a kind of points in formulas, and the point; none of pivots.
+/// Returns the index by which formulas denote a kind of points, and the position of this point on
+/// the link; `None` for pivots.
 fn point(kind: PointKind, link: &LinkPositions) -> Option<(&'static str, &RelativePosition)> {
     match kind {
         PointKind::Pivot => None,
@@ -235,7 +247,7 @@ fn point(kind: PointKind, link: &LinkPositions) -> Option<(&'static str, &Relati
     }
 }
 
-/// x and y of a point less those of where it is measured from.
+/// Returns the formulas of x and y of a point minus those of its reference point.
 fn steps(
     link: &str,
     mark: &str,

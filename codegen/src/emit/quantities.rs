@@ -1,4 +1,4 @@
-//! Quantities of a scene as expressions in its parameters.
+//! Emits quantities of a scene as expressions in its parameters.
 
 use super::Emission;
 use super::tokens::{Binding, float};
@@ -8,7 +8,7 @@ use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 
 impl Emission<'_> {
-    /// A quantity in `f64`, formed of the fields of `parameters`.
+    /// Emits a quantity in `f64`, computed from the fields of `parameters`.
     pub(super) fn quantity(&self, quantity: &Quantity) -> TokenStream {
         self.bound_quantity(quantity).0
     }
@@ -57,18 +57,18 @@ fn double(number: &Rational) -> (TokenStream, Binding) {
     }
 }
 
-/// A sum, from left to right.
+/// Emits a sum, from left to right.
 pub(super) fn sum(parts: Vec<(TokenStream, Binding)>) -> (TokenStream, Binding) {
     joined(parts, &quote!(+), Binding::Sum, Binding::Product)
 }
 
-/// A product, from left to right.
+/// Emits a product, from left to right.
 pub(super) fn product(parts: Vec<(TokenStream, Binding)>) -> (TokenStream, Binding) {
     joined(parts, &quote!(*), Binding::Product, Binding::Prefix)
 }
 
-/// Operands of an operator that associates to the left: the first one binds as
-/// tightly as the whole, the others more so.
+/// Emits operands of an operator that associates to the left. The first operand may bind as tightly
+/// as the whole; the others must bind more tightly.
 fn joined(
     parts: Vec<(TokenStream, Binding)>,
     operator: &TokenStream,
@@ -84,7 +84,7 @@ fn joined(
     (quote!(#first #(#operator #rest)*), whole)
 }
 
-/// Puts a value in parentheses where its place asks for a tighter binding.
+/// Puts a value in parentheses if `place` requires a tighter binding.
 pub(super) fn enclosed((value, binding): (TokenStream, Binding), place: Binding) -> TokenStream {
     match binding < place {
         true => quote!((#value)),

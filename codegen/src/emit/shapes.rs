@@ -1,4 +1,4 @@
-//! The shapes in which functions return their outputs.
+//! Types in which functions return their outputs.
 
 use super::Emission;
 use crate::functions::{Argument, ResultShape};
@@ -6,16 +6,41 @@ use crate::program::Entry;
 use proc_macro2::TokenStream;
 use quote::quote;
 
-/// The type of an argument, with its length if it is an array.
+/// Returns the type of an argument, with its length if it is an array.
 pub(super) fn argument_type(argument: Argument, length: &TokenStream) -> TokenStream {
     match argument {
         Argument::Time => quote!(T),
         Argument::Forces => quote!(&[[T; 2]; #length]),
-        _ => quote!(&[T; #length]),
+        Argument::Theta
+        | Argument::Omega
+        | Argument::AbsoluteMomenta
+        | Argument::Coordinates
+        | Argument::Rates
+        | Argument::Momenta
+        | Argument::Alpha
+        | Argument::Actions
+        | Argument::Difference(_)
+        | Argument::DifferenceRate(_)
+        | Argument::SmallDifferences
+        | Argument::SmallRates
+        | Argument::Torques
+        | Argument::SmallTorques
+        | Argument::Prescribed(_)
+        | Argument::Absolute
+        | Argument::Symmetric
+        | Argument::Constants
+        | Argument::Body
+        | Argument::Motion
+        | Argument::Response
+        | Argument::Sums
+        | Argument::Elimination
+        | Argument::Carried
+        | Argument::Pivot
+        | Argument::Given(_) => quote!(&[T; #length]),
     }
 }
 
-/// The type of a result of so many outputs; `length` writes the lengths of arrays.
+/// Returns the type of a result with this number of outputs; `length` emits the lengths of arrays.
 pub(super) fn result_type(
     runtime: &TokenStream,
     shape: ResultShape,
@@ -55,7 +80,7 @@ pub(super) fn result_type(
 }
 
 impl Emission<'_> {
-    /// The outputs in the shape in which the function returns them.
+    /// Returns the outputs in the form in which the function returns them.
     pub(super) fn shaped(&self, entry: &Entry, values: Vec<TokenStream>) -> TokenStream {
         let runtime = self.runtime();
         match entry.shape {

@@ -6,11 +6,13 @@ use crate::mechanics;
 use crate::mechanics::expression::{Expr, NamedFormula};
 use crate::scene::PassiveTorques;
 
-/// Most formulas that are all shown: those of four links with springs and friction.
+/// Largest number of formulas at which all of them are shown. It suffices for four links with
+/// springs and friction.
 const MOST_ROWS: usize = 24;
-/// Formulas that are shown of more than these.
+/// Number of formulas that are shown if there are more.
 const ROWS: usize = 8;
-/// A formula longer than this is left to `cargo branched-pendulum stage mechanics`.
+/// Longest formula that is shown, in characters; the docs refer to `cargo branched-pendulum stage
+/// mechanics` for longer ones.
 const LONGEST_FORMULA: usize = 600;
 
 impl Emission<'_> {
@@ -18,21 +20,21 @@ impl Emission<'_> {
         mechanics::text(expr, &self.mechanics.symbols)
     }
 
-    /// Returns true if any friction or drag is not viscous.
+    /// Returns true if some friction or drag is not viscous.
     pub(super) fn has_nonlinear_friction(&self) -> bool {
         let mut torques = self.scene.passive_torques();
         torques.any(|torques| !torques.is_viscous())
     }
 
-    /// Whether differences that are zero stay so.
+    /// Returns a sentence that states whether differences that are zero remain zero.
     pub(super) fn fate_of_differences(&self) -> &'static str {
         match self.scene.couples_differences(&self.mechanics.coordinates) {
-            false => "A difference that is zero with its rate stays exactly zero.",
-            true => "What acts between links couples differences, so that they do not stay zero.",
+            false => "A difference stays exactly zero if it and its rate are zero.",
+            true => "Forces between links couple the differences, so that they do not stay zero.",
         }
     }
 
-    /// The matrix that formulas in symmetric coordinates call D.
+    /// Explains the matrix D in formulas in symmetric coordinates.
     pub(super) fn braking_note(&self) -> &'static str {
         let mut links = self.scene.links.iter();
         match links.any(|link| !link.passive.is_viscous()) {
@@ -43,7 +45,7 @@ impl Emission<'_> {
         }
     }
 
-    /// The rates of the momenta, with the torques that the scene has.
+    /// Describes the rates of the momenta in words, with the torques that act in the scene.
     pub(super) fn momentum_rates_in_words(&self) -> String {
         let passive = || self.scene.passive_torques();
         let mut straight = self.scene.translational.iter();
@@ -66,8 +68,8 @@ impl Emission<'_> {
         }
     }
 
-    /// Formulas as a text block; returns the number of those shown, none if one of all
-    /// is too long.
+    /// Adds formulas as a text block. Returns the number of formulas shown, which is 0 if one of
+    /// them is too long.
     pub(super) fn show_text(
         &self,
         formulas: &[NamedFormula],
@@ -92,7 +94,7 @@ impl Emission<'_> {
         shown
     }
 
-    /// Formulas as a text block and, folded away, as LaTeX.
+    /// Adds formulas as a text block, followed by LaTeX in a collapsed block.
     pub(super) fn show(&self, formulas: &[NamedFormula], lines: &mut Vec<String>) {
         let most = match formulas.len() <= MOST_ROWS {
             true => MOST_ROWS,

@@ -1,8 +1,7 @@
-//! Sinking: accelerations of trees with more values than a processor has
-//! registers read angles and velocities, ask for sines and cosines and hand over
-//! the results each where its turn comes, subtree after subtree, as their program
-//! forms them. A value that is read early would be stored until it is used, and so
-//! would those that are formed of it alone.
+//! Sinking: a different order of lines in the accelerations of trees with more values than vector
+//! registers. Angles and velocities are read, sines and cosines computed, and results written one
+//! by one when they are needed, subtree after subtree. A value that is read early would have to be
+//! stored until its use, as would the values that depend on it alone.
 
 use super::Emission;
 use super::lines::{Line, Written, is_whole};
@@ -15,37 +14,37 @@ use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Values that wait for a later use, from which on this is worth it: twice the
-/// vector registers of current processors. One state of a shorter function loses
-/// more than a batch of it gains.
+/// Number of simultaneously needed values from which on sinking makes the code faster: twice the
+/// number of vector registers of current processors. In shorter functions the evaluation of one
+/// state would lose more time than a batch gains.
 const WAITING: usize = 64;
 
-/// Angles whose sines and cosines are computed together: while the result of one
-/// operation is awaited, the others keep the processor busy.
+/// Number of angles whose sines and cosines are computed together, so that the processor works on
+/// the others while it waits for the result of one operation.
 const TOGETHER: usize = 4;
 
-/// The lines of `evaluate`, in the making.
+/// Builder of the lines of `evaluate`.
 struct Sinking<'e, 'p> {
     emission: &'e Emission<'p>,
     entry: &'e Entry,
     needed: &'e [ValueId],
     locals: &'e Locals,
-    /// Angles that are asked for together.
+    /// Groups of angles whose sines and cosines are computed together.
     groups: Vec<Vec<ValueId>>,
-    /// Lines that read inputs alone, by what they define: they wait until that
-    /// is needed.
+    /// Lines that only read inputs, by the values that they define; they are emitted when these
+    /// values are needed.
     early: BTreeMap<ValueId, Line>,
     /// Inputs, sines and cosines that have been read.
     known: BTreeSet<ValueId>,
-    /// Places of the outputs that have been handed over.
+    /// Indices of the outputs that have been written.
     results: BTreeSet<usize>,
     written: Vec<Line>,
 }
 
 impl Emission<'_> {
-    /// Returns true if this function's body stands in `evaluate`, in the order
-    /// in which the values are needed. That holds for accelerations whose
-    /// values do not fit into registers, if the compiler sees them as a whole.
+    /// Returns true if the body of this function is in `evaluate`, with lines in the order in which
+    /// values are needed. This is the case for accelerations whose values do not fit into
+    /// registers, if the function is compiled as a whole.
     pub(super) fn is_sunk(&self, entry: &Entry, written: &Written) -> bool {
         self.program.without != Some(Pass::Order)
             && entry.purpose == Purpose::Accelerations
@@ -54,7 +53,7 @@ impl Emission<'_> {
             && self.program.live(entry) > WAITING
     }
 
-    /// The body of `evaluate`, if it has one of its own.
+    /// Emits the body of `evaluate`, if it has a separate one.
     pub(super) fn sunk(&self) -> Option<TokenStream> {
         let entry = self.entry(Purpose::Accelerations)?;
         let needed = self.program.needed(&entry.outputs);
@@ -65,26 +64,27 @@ impl Emission<'_> {
         let lines = self.sunk_lines(entry, &needed, &written);
         let links = (0..self.scene.links.len()).map(Literal::usize_unsuffixed);
         let runtime = self.runtime();
-        let turns = quote!(let turns = #runtime::emitted::Turns::among([#(theta(#links)),*]););
+        let sin_cos =
+            quote!(let sin_cos = #runtime::emitted::SinCosPairs::among([#(theta(#links)),*]););
         if !written.long {
             let lines = lines.iter().map(|line| &line.tokens);
-            return Some(quote!(#turns #(#lines)*));
+            return Some(quote!(#sin_cos #(#lines)*));
         }
         let parts = self.parts(&[], &lines, &written.locals);
         let (shared, size) = (ident(SHARED), Literal::usize_unsuffixed(parts.size));
         let time = self.sunk_time(entry);
         let calls = parts.parts.iter().map(|part| {
             let name = part.name(entry);
-            quote!(self.#name(#time &turns, &theta, &omega, &mut alpha, &mut #shared);)
+            quote!(self.#name(#time &sin_cos, &theta, &omega, &mut alpha, &mut #shared);)
         });
         Some(quote! {
-            #turns
+            #sin_cos
             let mut #shared = [T::from_f64(0.0); #size];
             #(#calls)*
         })
     }
 
-    /// The body of the function itself then.
+    /// Emits the body of the function itself if it calls `evaluate`.
     pub(super) fn through_evaluate(&self, entry: &Entry) -> TokenStream {
         let (runtime, links) = (self.runtime(), self.links());
         let time = match entry.arguments.contains(&Argument::Time) {
@@ -104,7 +104,7 @@ impl Emission<'_> {
         }
     }
 
-    /// Parts of a long `evaluate`, as functions of their own.
+    /// Emits the parts of a long `evaluate` as functions.
     pub(super) fn sunk_parts(
         &self,
         entry: &Entry,
@@ -133,7 +133,7 @@ impl Emission<'_> {
                 fn #name(
                     &self,
                     #time
-                    turns: &#runtime::emitted::Turns<T, #links>,
+                    sin_cos: &#runtime::emitted::SinCosPairs<T, #links>,
                     theta: &impl ::core::ops::Fn(usize) -> T,
                     omega: &impl ::core::ops::Fn(usize) -> T,
                     alpha: &mut impl ::core::ops::FnMut(usize, T),
@@ -151,13 +151,13 @@ impl Emission<'_> {
         timed.then(|| quote!(time,))
     }
 
-    /// Inputs that an earlier part has read too.
+    /// Returns the inputs that an earlier part has read too.
     fn read_again(&self, part: &FunctionPart, locals: &Locals) -> Vec<TokenStream> {
         let inputs = part.inputs.iter();
         inputs.filter_map(|&id| self.input(id, locals)).collect()
     }
 
-    /// `let omega_a = omega(0);`
+    /// Returns `let omega_a = omega(0);`.
     fn input(&self, id: ValueId, locals: &Locals) -> Option<TokenStream> {
         match *self.op(id) {
             Op::Input(argument, index) if argument != Argument::Time => {
@@ -171,7 +171,7 @@ impl Emission<'_> {
 
     fn sunk_lines(&self, entry: &Entry, needed: &[ValueId], written: &Written) -> Vec<Line> {
         let locals = &written.locals;
-        // The first line asks for all sines and cosines.
+        // The first line computes all sines and cosines.
         let lines = written.lines.get(1..).unwrap_or_default();
         let mut sinking = Sinking {
             emission: self,
@@ -203,7 +203,7 @@ impl Emission<'_> {
 }
 
 impl Sinking<'_, '_> {
-    /// The named values that are read where `ids` are.
+    /// Returns the named values that the expressions of `ids` read.
     fn read(&self, ids: &[ValueId]) -> BTreeSet<ValueId> {
         let mut read = BTreeSet::new();
         for &id in ids {
@@ -212,7 +212,7 @@ impl Sinking<'_, '_> {
         read
     }
 
-    /// The angle of a sine or cosine.
+    /// Returns the angle of a sine or cosine.
     fn angle(&self, id: ValueId) -> Option<ValueId> {
         match *self.emission.op(id) {
             Op::Sin(angle) | Op::Cos(angle) => match *self.emission.op(angle) {
@@ -223,15 +223,14 @@ impl Sinking<'_, '_> {
         }
     }
 
-    /// Returns true if a line reads inputs alone, at once or through others
-    /// that do.
+    /// Returns true if a line reads inputs only, directly or through other such lines.
     fn is_early(&self, line: &Line) -> bool {
         let input = |id: &ValueId| matches!(self.emission.op(*id), Op::Input(..));
         let known = |id: &ValueId| input(id) || self.early.contains_key(id);
         !line.defines.is_empty() && self.read(&line.reads).iter().all(known)
     }
 
-    /// One line, after what it reads and before the results that it completes.
+    /// Emits the results that are not defined by a line.
     fn line(&mut self, line: &Line) {
         self.reads(&line.reads);
         self.written.push(line.clone());
@@ -242,7 +241,7 @@ impl Sinking<'_, '_> {
         }
     }
 
-    /// The results that no line defines.
+    /// Emits the results that no line defines.
     fn rest(&mut self) {
         for (index, &output) in self.entry.outputs.iter().enumerate() {
             if !self.results.contains(&index) {
@@ -261,8 +260,8 @@ impl Sinking<'_, '_> {
             .push(Line::new(Vec::new(), vec![output], tokens));
     }
 
-    /// Reads the inputs, forms what waits and asks for the sines and cosines that
-    /// are read there and that nothing before has read.
+    /// Reads the inputs, emits the waiting lines and computes the sines and cosines that these
+    /// values need and that have not been read before.
     fn reads(&mut self, ids: &[ValueId]) {
         for id in self.read(ids) {
             if self.known.contains(&id) {
@@ -280,7 +279,7 @@ impl Sinking<'_, '_> {
         }
     }
 
-    /// `let ([sin_a, sin_b], [cos_a, cos_b]) = turns.of([0, 1], [theta(0), theta(1)]);`
+    /// Emits `let ([sin_a, sin_b], [cos_a, cos_b]) = sin_cos.of([0, 1], [theta(0), theta(1)]);`.
     fn turn(&mut self, angle: ValueId) {
         let group = self.groups.iter().find(|group| group.contains(&angle));
         let group = group.map_or_else(Vec::new, Vec::clone);
@@ -302,7 +301,7 @@ impl Sinking<'_, '_> {
         self.known.extend(&defined);
         let tokens = quote! {
             let ([#(#sines),*], [#(#cosines),*]) =
-                turns.of([#(#links),*], [#(theta(#links)),*]);
+                sin_cos.of([#(#links),*], [#(theta(#links)),*]);
         };
         self.written.push(Line::new(defined, Vec::new(), tokens));
     }

@@ -1,5 +1,5 @@
-//! Functions at slices of any length, as the runtime's traits hand them over: where a
-//! length is wrong, results are NaN, which integrators report at once.
+//! Calls of functions on slices of any length, as the runtime's traits pass them. If a length is
+//! wrong, the results are NaN, which integrators report at once.
 
 use super::Emission;
 use super::tokens::ident;
@@ -9,13 +9,14 @@ use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 
 impl Emission<'_> {
-    /// The entry point for a purpose.
+    /// Returns the entry point for a purpose.
     pub(super) fn entry(&self, purpose: Purpose) -> Option<&Entry> {
         let mut entries = self.program.entries.iter();
         entries.find(|entry| entry.purpose == purpose)
     }
 
-    /// Slices as arrays of the same names, those of one group of one length.
+    /// Emits the conversion of slices to arrays with the same names; the slices of a group have the
+    /// same length.
     pub(super) fn with_arrays(
         &self,
         groups: &[Vec<&str>],
@@ -41,8 +42,8 @@ impl Emission<'_> {
         }
     }
 
-    /// Hands the call of a function at slices, which are called as its arguments are, to `made`;
-    /// `failure` where their lengths are wrong.
+    /// Passes the call of a function on slices, which have the names of its arguments, to `made`;
+    /// emits `failure` for wrong lengths.
     pub(super) fn at_slices(
         &self,
         purpose: Purpose,
@@ -70,26 +71,31 @@ impl Emission<'_> {
         self.with_arrays(&groups, made(call), failure)
     }
 
-    /// The number that a function gives at slices.
+    /// Emits the number that a function returns for slices.
     pub(super) fn value_at_slices(&self, purpose: Purpose) -> TokenStream {
         self.at_slices(purpose, |call| call, quote!(T::from_f64(f64::NAN)))
     }
 
-    /// Fills outputs with NaN.
+    /// Emits the filling of outputs with NaN.
     pub(super) fn unknown(&self, outputs: &[&str]) -> TokenStream {
         let runtime = self.runtime();
         let outputs = outputs.iter().map(|output| ident(output));
         quote!({ #(#runtime::emitted::unknown(#outputs);)* })
     }
 
-    /// Writes the array that a function gives at slices.
-    pub(super) fn fill(&self, output: &str, purpose: Purpose) -> TokenStream {
-        let (runtime, name) = (self.runtime(), ident(output));
-        let write = |call| quote!(#runtime::emitted::write(#name, &#call));
-        self.at_slices(purpose, write, self.unknown(&[output]))
+    /// Emits code that calls a function with slices and writes its result, an array or a pair of
+    /// arrays, to `outputs`.
+    pub(super) fn fill(&self, outputs: &[&str], purpose: Purpose) -> TokenStream {
+        if let &[first, second] = outputs {
+            return self.fill_both([first, second], &quote!((first, second)), purpose);
+        }
+        let runtime = self.runtime();
+        let names: Vec<Ident> = outputs.iter().map(|output| ident(output)).collect();
+        let write = |call| quote!(#runtime::emitted::write(#(#names),*, &#call));
+        self.at_slices(purpose, write, self.unknown(outputs))
     }
 
-    /// Writes two arrays that a function gives into slices.
+    /// Emits code that writes the two arrays returned by a function to two slices.
     pub(super) fn fill_both(
         &self,
         outputs: [&str; 2],

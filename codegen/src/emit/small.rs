@@ -1,27 +1,34 @@
-//! Small differences that act back: names, docs, formulas and the runtime's trait.
+//! Small differences that act back on the in-phase motion: names, docs, formulas and the runtime's
+//! trait.
 
 use super::Emission;
-use super::computes::SliceFunction;
-use crate::functions::{Argument, Purpose};
+use crate::functions::Purpose;
 use crate::mechanics::SmallMechanics;
 use crate::mechanics::expression::NamedFormula;
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
+
+/// Documentation of the accelerations with small differences under torques.
+pub(super) const UNDER_TORQUES: [&str; 3] = [
+    "Second time derivatives (in rad/s²) like [`small_accelerations`](Self::small_accelerations), but under external generalized torques (in N m): `torques` Q on the in-phase angles, the sums of those on all copies, and `difference_torques` Σ e_c Q_c on the differences (`DifferencePatterns::torques`).",
+    "",
+    "Their power on E is Q·ω, plus the power of the torques on differences at `difference_rate`.",
+];
 
 impl Emission<'_> {
     fn small_mechanics(&self) -> Option<&SmallMechanics> {
         self.mechanics.transverse.as_ref()?.small.as_ref()
     }
 
-    /// Number of differences that act back.
+    /// Returns the number of differences that act back.
     pub(super) fn small_count(&self) -> usize {
         let sectors = self.scene.requests.small.iter();
         sectors.map(|&sector| self.transverse_links(sector)).sum()
     }
 
-    /// `delta_child`, or `delta_arm_hand` where several sectors have a difference of one
+    /// Returns `delta_child`, or `delta_arm_hand` if several sectors have a difference of the same
     /// link.
-    pub(super) fn small_name(&self, argument: Argument, index: usize) -> String {
+    pub(super) fn small_name(&self, letter: &str, index: usize) -> String {
         let sectors = &self.scene.requests.small;
         let links = sectors.iter().flat_map(|&sector| {
             let of_sector = self.transverse_sector(sector);
@@ -33,41 +40,40 @@ impl Emission<'_> {
             Some(found) => found,
             None => unreachable!("a difference {index} behind the last one"),
         };
-        let letter = match argument {
-            Argument::SmallDifferences => "delta",
-            Argument::SmallTorques => "outside_delta",
-            _ => "delta_rate",
-        };
         match links.filter(|(_, other)| *other == link).count() {
             1 => format!("{letter}_{link}"),
             _ => format!("{letter}_{sector}_{link}"),
         }
     }
 
-    pub(super) fn small_meaning(&self, purpose: Purpose) -> Vec<String> {
+    /// Returns the names of the sectors whose differences act back on the in-phase motion.
+    fn small_sector_names(&self) -> String {
         let names = self.scene.requests.small.iter();
         let names: Vec<String> = names
             .map(|&sector| format!("`{}`", self.transverse_sector(sector).sector.name))
             .collect();
-        let names = names.join(", ");
-        match purpose {
-            Purpose::SmallAccelerations => vec![
+        names.join(", ")
+    }
+
+    /// Returns the documentation of the accelerations with small differences that act back.
+    pub(super) fn small_accelerations_meaning(&self) -> Vec<String> {
+        let names = self.small_sector_names();
+        vec![
                 format!(
-                    "Second time derivatives (in rad/s²) of the angles in phase and, behind them, of small differences that act back on these, of the sectors {names}, from {}`theta` and `omega` in phase, `difference` δ (in rad) and `difference_rate` (in rad/s): by the Lagrangian through second order in δ.",
+                    "Second time derivatives (in rad/s²) of the in-phase angles, followed by those of small differences that act back on them, of the sectors {names}, from {}`theta` and `omega` in phase, `difference` δ (in rad) and `difference_rate` (in rad/s), derived from the Lagrangian through second order in δ.",
                     self.at_time()
                 ),
                 String::new(),
-                "Copies have the angles θ + e_c δ, as for `transverse_accelerations_…`, with the mean angles θ `theta` (in rad) and their rates `omega` (in rad/s). For pairs the differences are wrong by terms of third order in them, and the means of fourth.".into(),
-            ],
-            Purpose::SmallAccelerationsUnder => vec![
-                "Second time derivatives (in rad/s²) as [`small_accelerations`](Self::small_accelerations), with generalized torques (in N m) from outside: `torques` Q on the angles in phase, the sums of those on all copies, and `difference_torques` Σ e_c Q_c on the differences (`DifferencePatterns::torques`).".into(),
-                String::new(),
-                "Their power on E is Q·ω with what the torques on differences do on `difference_rate`.".into(),
-            ],
-            _ => vec![format!(
-                "Energy E (in J) of the whole tree through second order in the differences of {names}: kinetic and potential, which the motion of `small_accelerations` keeps without friction and drive."
-            )],
-        }
+                "Copies have the angles θ + e_c δ, as for `transverse_accelerations_…`, with the mean angles θ `theta` (in rad) and their rates `omega` (in rad/s). Between two copies the error of the differences is of third order in them, and that of the means of fourth order.".into(),
+            ]
+    }
+
+    /// Returns the documentation of the energy with small differences that act back.
+    pub(super) fn small_energy_meaning(&self) -> Vec<String> {
+        let names = self.small_sector_names();
+        vec![format!(
+            "Energy E (in J) of the whole tree through second order in the differences of {names}: kinetic and potential energy, which the motion of `small_accelerations` conserves without friction and drive."
+        )]
     }
 
     pub(super) fn small_formulas(&self) -> Vec<NamedFormula> {
@@ -83,27 +89,14 @@ impl Emission<'_> {
         std::iter::once(whole).chain(parts).collect()
     }
 
-    /// `impl SmallDifferences`; NaN for slices of a wrong length.
+    /// Emits `impl SmallDifferences`; slices of a wrong length give NaN.
     pub(super) fn small_trait(&self) -> Option<TokenStream> {
         self.small_mechanics()?;
         let (name, runtime) = (&self.item.ident, self.runtime());
         let sectors = self.scene.requests.small.iter();
         let sectors = sectors.map(|&sector| Literal::usize_unsuffixed(sector));
-        let function = SliceFunction {
-            name: "SmallDifferences",
-            given: &["theta", "omega", "difference", "difference_rate"],
-            results: &["accelerations"],
-            index: None,
-        };
-        let body = self.fill("accelerations", Purpose::SmallAccelerations);
-        let accelerations = self.computes(&function, &body, None);
         let energy = self.value_at_slices(Purpose::SmallEnergy);
-        let forced = self.forced_differences();
         Some(quote! {
-            #forced
-
-            #accelerations
-
             impl<T: #runtime::Scalar> #runtime::SmallDifferences<T> for #name<T> {
                 const SMALL: &'static [usize] = &[#(#sectors),*];
 
@@ -119,26 +112,5 @@ impl Emission<'_> {
                 }
             }
         })
-    }
-
-    /// The accelerations under torques, where these are asked for; NaN for slices of a wrong
-    /// length.
-    fn forced_differences(&self) -> Option<TokenStream> {
-        self.entry(Purpose::SmallAccelerationsUnder)?;
-        let function = SliceFunction {
-            name: "SmallDifferencesUnderTorques",
-            given: &[
-                "theta",
-                "omega",
-                "difference",
-                "difference_rate",
-                "torques",
-                "difference_torques",
-            ],
-            results: &["accelerations"],
-            index: None,
-        };
-        let body = self.fill("accelerations", Purpose::SmallAccelerationsUnder);
-        Some(self.computes(&function, &body, None))
     }
 }

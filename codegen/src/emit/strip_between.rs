@@ -1,4 +1,5 @@
-//! Springs and friction between links of trees in loops, and along lines between their points.
+//! Springs and friction between links of trees in loops, and forces along lines between their
+//! points.
 
 use super::Emission;
 use crate::program::{
@@ -10,8 +11,8 @@ use quote::{format_ident, quote};
 use std::collections::BTreeMap;
 
 impl Emission<'_> {
-    /// `.with_spring_dampers(…)`, where something acts between links that are not parent and
-    /// child.
+    /// Emits `.with_spring_dampers(…)`, if springs or friction act between links that are not
+    /// parent and child.
     pub(super) fn spring_dampers(
         &self,
         strips: &LoopTree,
@@ -28,7 +29,7 @@ impl Emission<'_> {
         })
     }
 
-    /// `.with_translational_spring_dampers(…)`, where something acts along lines.
+    /// Emits `.with_translational_spring_dampers(…)`, if forces act along lines.
     pub(super) fn translational_spring_dampers(
         &self,
         strips: &LoopTree,
@@ -46,11 +47,11 @@ impl Emission<'_> {
     fn links_in_loops(&self) -> Literal {
         match self.scene.layout {
             Layout::Generations { links, .. } => Literal::usize_unsuffixed(links),
-            _ => self.links(),
+            Layout::Unrolled | Layout::Links => self.links(),
         }
     }
 
-    /// The runs of lines of the same constants, as an iterator.
+    /// Emits the runs of lines with the same constants, as an iterator.
     fn lines_of(&self, own: &LineConstants, known: &BTreeMap<ConstantId, Ident>) -> TokenStream {
         let lines = {
             let runtime = self.runtime();
@@ -108,25 +109,26 @@ impl Emission<'_> {
         }
     }
 
-    /// Returns true if lines store energy.
+    /// Returns true if some line stores energy.
     pub(super) fn stores_along_lines(&self) -> bool {
         let mut lines = self.scene.translational.iter();
         lines.any(|own| !own.potentials.is_empty())
     }
 
-    /// Returns true if viscous dampers act along lines.
+    /// Returns true if some line has a viscous damper.
     pub(super) fn is_damped_along_lines(&self) -> bool {
         let mut lines = self.scene.translational.iter();
         lines.any(|own| !own.friction.is_zero())
     }
 
-    /// Returns true if torques of that kind act between links that are not parent and child.
+    /// Returns true if torques for which `kind` is true act between links that are not parent and
+    /// child.
     pub(super) fn is_coupled_by(&self, kind: impl Fn(&PassiveTorques) -> bool) -> bool {
         let mut between = self.scene.spring_dampers.iter();
         between.any(|own| kind(&own.torques) && !self.scene.pair_runs(&own.ends).is_empty())
     }
 
-    /// The runs of one of them, as an iterator.
+    /// Emits the runs of one spring-damper, as an iterator.
     fn runs_of(
         &self,
         own: &SpringDamperConstants,
@@ -138,7 +140,11 @@ impl Emission<'_> {
         let law = match &own.law {
             Some(law) => {
                 let law = law.map(|id| self.known_value(id, known));
-                quote!(::core::option::Option::Some([#(#law),*]))
+                quote! {
+                    ::core::option::Option::Some(
+                        #runtime::friction::FrictionLaw::of_constants([#(#law),*]),
+                    )
+                }
             }
             None => quote!(::core::option::Option::None),
         };

@@ -1,5 +1,5 @@
-//! Energies, powers and positions of trees in loops: the functions of one link, as
-//! implementations of the runtime's traits.
+//! Energies, powers and positions of trees in loops: the functions of one link, as implementations
+//! of the runtime's traits.
 
 use super::Emission;
 use crate::functions::{BodyFunction, Purpose};
@@ -7,8 +7,8 @@ use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
 impl Emission<'_> {
-    /// Returns `impl BodyEquations` where energies are asked for, and `impl PointEquations`
-    /// where positions are.
+    /// Emits `impl BodyEquations` if energies are requested, and `impl PointEquations` if positions
+    /// are.
     pub(super) fn body_equations(&self) -> TokenStream {
         let requests = &self.scene.requests;
         let (runtime, equations) = (self.runtime(), self.equations_name());
@@ -25,7 +25,7 @@ impl Emission<'_> {
             let columns = strips.map_or(0, |strips| strips.body_columns.len());
             let (columns, functions) = (Literal::usize_unsuffixed(columns), functions(false));
             quote! {
-                // Of commas: all tokens stand where the attribute does, see `emit`.
+                // For the lint about commas: all tokens have the span of the attribute, see `emit`.
                 #[allow(clippy::many_single_char_names, clippy::possible_missing_comma)]
                 impl #runtime::tree::BodyEquations for #equations {
                     type Body<T: #runtime::Scalar> = [T; #columns];

@@ -7,29 +7,29 @@ impl Emission<'_> {
     pub(super) fn strip_docs(&self) -> Vec<String> {
         let energies = match self.scene.requests.energies {
             true => "",
-            false => " Energies can be asked for with `emit(energies)`.",
+            false => " Energies can be requested with `emit(energies)`.",
         };
         let rows = self.scene.links.len();
         let vertical = self.scene.vertical();
         let mut lines = match self.scene.layout {
             Layout::Generations { branching, links } => vec![
                 format!(
-                    "A planar tree of {links} rigid links in {rows} generations, {branching} under each link but the last ones. Angles are absolute, in radians from the {vertical}; SI units throughout."
+                    "A planar tree of {links} rigid links in {rows} generations, {branching} under each link except those of the last generation. Angles are absolute, in radians from the {vertical}; SI units throughout."
                 ),
                 String::new(),
-                "Links stand generation by generation, and in a generation copy by copy: copy c (from 0) under link i of a generation of n links is number c n + i of the next one. `link` finds one by its path.".into(),
+                "Links are ordered generation by generation, and in a generation copy by copy: copy c (from 0) under link i of a generation of n links has the number c n + i in the next generation. `link` finds a link by its path.".into(),
                 String::new(),
                 format!(
-                    "The code is loops over generations, O(links), in vectors of siblings, and on all cores where there are many.{energies}"
+                    "The code consists of loops over generations, O(links). They compute several siblings at once in vector registers, and large trees on all cores.{energies}"
                 ),
             ],
-            _ => vec![
+            Layout::Unrolled | Layout::Links => vec![
                 format!(
                     "A planar tree of {rows} rigid links. Angles are absolute, in radians from the {vertical}, in the order of `LINK_NAMES`; SI units throughout."
                 ),
                 String::new(),
                 format!(
-                    "The code is a loop over the links, O(links), of the equations that are shown where they stand.{energies}"
+                    "The code is a loop over the links, O(links). The equations of one link are shown where they are defined.{energies}"
                 ),
             ],
         };
@@ -68,7 +68,7 @@ impl Emission<'_> {
         let mut lines = vec![
             "The equations of one link, by articulated-body recursion in the plane (Featherstone, Rigid Body Dynamics Algorithms, 2008, ch. 7).".to_owned(),
             String::new(),
-            "Subtrees that hang at (ℓ, w) answer the acceleration **a** of their pivot with the force σ **a** + γ − N **a**. Their articulated inertia is σ − N; σ is the mass of those that are single links, and zero for others. J is the moment of inertia that the joint feels, b the first moment, κ the bias torque, f the force with the joint held; primed are N and γ of the subtree that the link carries, and the acceleration of its children's pivot. The code carries −**a**, the apparent gravity, has all masses over m and all lengths over l of the commonest leaf, and angles of a link by its own length.".to_owned(),
+            "Subtrees that hang at (ℓ, w) respond to the acceleration **a** of their pivot with the force σ **a** + γ − N **a**. Their articulated inertia is σ − N; σ is the mass of those subtrees that are single links. J is the moment of inertia about the joint, b the first moment, κ the bias torque, f the force if the joint does not move. A prime marks N and γ of the subtree that begins with the link, and the acceleration of its children's pivot. The code uses −**a**, the apparent gravity. Masses and lengths are divided by the mass m and length l of the most frequent kind of leaf, and accelerations of a link are multiplied by its own unit of length.".to_owned(),
         ];
         if self.scene.stands() {
             lines.push(String::new());
@@ -79,7 +79,7 @@ impl Emission<'_> {
         }
         if !self.scene.prescribed.is_empty() {
             lines.push(String::new());
-            lines.push("Of a held link the angular acceleration is given where the torque from outside stands, nothing of it is eliminated (ch. 9), and where accelerations are told stands the torque that it takes, in N m.".into());
+            lines.push("For a prescribed (held) link, the angular acceleration replaces the external torque among the arguments, and nothing is eliminated (ch. 9); in the place of its acceleration, the torque that it needs is returned, in N m.".into());
         }
         if let Some(link) = &self.mechanics.link {
             let formulas = link.formulas(&self.mechanics.symbols);

@@ -10,7 +10,7 @@ use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
 
 impl Emission<'_> {
-    /// The equations of one link: a type without values, and its trait.
+    /// Emits the equations of one link: a type without values, and its trait.
     pub(super) fn link_equations(&self, strips: &LoopTree) -> TokenStream {
         let (vis, name, runtime) = (&self.item.vis, self.equations_name(), self.runtime());
         let docs = doc_lines(&self.equations_docs());
@@ -37,7 +37,7 @@ impl Emission<'_> {
             )]
             #vis struct #name;
 
-            // Of commas: all tokens stand where the attribute does, see `emit`.
+            // For the lint about commas: all tokens have the span of the attribute, see `emit`.
             #[allow(clippy::many_single_char_names, clippy::possible_missing_comma)]
             impl #runtime::tree::LinkEquations for #name {
                 type Constants<T: #runtime::Scalar> = [T; #constants];
@@ -54,7 +54,7 @@ impl Emission<'_> {
         }
     }
 
-    /// Copies and names of the generations of a tree that is told by a rule.
+    /// Emits copies and names of the generations of a rule-based tree.
     fn generations(&self) -> TokenStream {
         let (mut copies, mut names) = (Vec::new(), Vec::new());
         if let Layout::Generations { branching, .. } = self.scene.layout {
@@ -70,7 +70,7 @@ impl Emission<'_> {
         }
     }
 
-    /// A function of the trait.
+    /// Emits a function of the trait.
     fn link_function(&self, function: LinkFunction) -> Option<TokenStream> {
         let result = match function {
             LinkFunction::Leaf => quote!(Self::Response<T>),
@@ -83,7 +83,7 @@ impl Emission<'_> {
         self.equation_function(Purpose::Link(function), &result)
     }
 
-    /// A function of a trait of equations, from its entry point.
+    /// Emits a function of a trait that contains equations, from its entry point.
     pub(super) fn equation_function(
         &self,
         purpose: Purpose,
@@ -91,7 +91,7 @@ impl Emission<'_> {
     ) -> Option<TokenStream> {
         let entry = self.entry(purpose)?;
         let (runtime, docs, name) = (self.runtime(), self.entry_docs(entry), ident(&entry.name));
-        let body = match self.handed_on(entry) {
+        let body = match self.last_argument(entry) {
             Some(body) => body,
             None => self.plain_body(entry),
         };
@@ -109,7 +109,31 @@ impl Emission<'_> {
                     let given = Literal::usize_unsuffixed(names.len());
                     quote!([T; #given])
                 }
-                _ => quote!([T; 2]),
+                Argument::Pivot => quote!([T; 2]),
+                Argument::Time
+                | Argument::Theta
+                | Argument::Omega
+                | Argument::AbsoluteMomenta
+                | Argument::Coordinates
+                | Argument::Rates
+                | Argument::Momenta
+                | Argument::Forces
+                | Argument::Alpha
+                | Argument::Actions
+                | Argument::Difference(_)
+                | Argument::DifferenceRate(_)
+                | Argument::SmallDifferences
+                | Argument::SmallRates
+                | Argument::Torques
+                | Argument::SmallTorques
+                | Argument::Prescribed(_)
+                | Argument::Absolute
+                | Argument::Symmetric => {
+                    unreachable!(
+                        "`{}` is not an argument of one link's functions",
+                        argument.name()
+                    )
+                }
             };
             quote!(#name: #kind)
         });
@@ -122,8 +146,8 @@ impl Emission<'_> {
         })
     }
 
-    /// The body of a function that returns its last argument as it is.
-    fn handed_on(&self, entry: &Entry) -> Option<TokenStream> {
+    /// Returns the body of a function that returns its last argument unchanged.
+    fn last_argument(&self, entry: &Entry) -> Option<TokenStream> {
         let (&last, others) = entry.arguments.split_last()?;
         let mut outputs = (0..).zip(&entry.outputs);
         let same = outputs.all(|(index, &id)| *self.op(id) == Op::Input(last, index));
@@ -135,8 +159,9 @@ impl Emission<'_> {
     }
 }
 
-/// What the equations of one link have beside the tree's: torques in joints, the drive's on the
-/// root, from outside and between links, and links that are held.
+/// Emits those parts of the equations of one link that depend on the scene: torques in joints, of
+/// the drive on the root, external torques, torques between links, and links with prescribed
+/// motion.
 fn link_parts(strips: &LoopTree) -> TokenStream {
     let (joints, torque) = (strips.has_joint_torques, strips.has_drive_torque);
     let forced = strips.has_outside_torques.then(|| {
@@ -144,9 +169,9 @@ fn link_parts(strips: &LoopTree) -> TokenStream {
             const FORCED: bool = true;
         )
     });
-    let held = strips.has_held_links.then(|| {
+    let prescribed = strips.has_prescribed_links.then(|| {
         quote!(
-            const HELD: bool = true;
+            const PRESCRIBED: bool = true;
         )
     });
     let coupled = strips.is_coupled().then(|| {
@@ -159,6 +184,6 @@ fn link_parts(strips: &LoopTree) -> TokenStream {
         const TORQUE: bool = #torque;
         #forced
         #coupled
-        #held
+        #prescribed
     }
 }

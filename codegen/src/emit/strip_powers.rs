@@ -8,7 +8,7 @@ use proc_macro2::TokenStream;
 use quote::quote;
 
 impl Emission<'_> {
-    /// The energies, which bodies compute.
+    /// Emits the energies, from the bodies of the links.
     pub(super) fn strip_energies(&self) -> TokenStream {
         if !self.scene.requests.energies {
             return TokenStream::new();
@@ -28,17 +28,17 @@ impl Emission<'_> {
             false => "",
         };
         let along = match self.stores_along_lines() {
-            true => ", and what lines between points store",
+            true => ", and the energy stored along lines between points",
             false => "",
         };
         let potential = doc_lines(&[format!(
-            "Potential energy U (in J) at angles `theta` (in rad), {zero}: Σ m g h + ½ κ (θ − θ_parent{rest})² over the links, h being the height of their centres of mass, κ the stiffness of torsion springs{between}{along}. NaN for a slice of another length than there are links. O(links)."
+            "Potential energy U (in J) at angles `theta` (in rad), {zero}: Σ m g h + ½ κ (θ − θ_parent{rest})² over the links, h being the height of their centres of mass, κ the stiffness of torsion springs{between}{along}. NaN if the slice does not have one number per link. O(links)."
         )]);
         quote! {
             /// Kinetic energy K (in J) at angles `theta` (in rad) and angular velocities
             /// `omega` (in rad/s): Σ ½ m **V**² + ½ I ω² over the links, **V** being the
-            /// velocities of their centres of mass. NaN for slices of another length than
-            /// there are links. O(links).
+            /// velocities of their centres of mass. NaN if a slice does not have one number
+            /// per link. O(links).
             #frame
             #[must_use]
             pub fn kinetic_energy(&self, theta: &[T], omega: &[T]) -> T {
@@ -53,8 +53,8 @@ impl Emission<'_> {
         }
     }
 
-    /// The drive as functions of time, and where energies are asked for its power and
-    /// that of friction.
+    /// Emits the drive as functions of time and, if energies are requested, its power and that of
+    /// friction.
     pub(super) fn strip_drive(&self) -> TokenStream {
         let entries = [Purpose::Drive, Purpose::RootDrive].map(|purpose| self.entry(purpose));
         let [Some(entry), Some(root)] = entries else {
@@ -77,7 +77,7 @@ impl Emission<'_> {
             }
         };
         let power = doc_lines(&[
-            "Power (in W) of the drive on the whole tree at `time` (in s), angles `theta` (in rad) and angular velocities `omega` (in rad/s): dE/dt of E = K + U without friction. NaN for slices of another length than there are links. O(links).".to_owned(),
+            "Power (in W) of the drive on the whole tree at `time` (in s), angles `theta` (in rad) and angular velocities `omega` (in rad/s): dE/dt of E = K + U without friction. NaN if a slice does not have one number per link. O(links).".to_owned(),
             String::new(),
             "```text".to_owned(),
             "P = τ ω_root − a_x Σ m V_x − a_y Σ m V_y".to_owned(),
@@ -103,8 +103,8 @@ impl Emission<'_> {
         }
     }
 
-    /// The powers of friction and of torques from outside, where energies are asked for and
-    /// something feeds them.
+    /// Emits the powers of friction and of external torques, if energies are requested and external
+    /// forces feed them.
     pub(super) fn strip_powers(&self) -> TokenStream {
         let requests = &self.scene.requests;
         let fed = self.mechanics.drive.is_some() || requests.forces;
@@ -140,7 +140,7 @@ impl Emission<'_> {
                 false => ("", ""),
             };
             let docs = doc_lines(&[format!(
-                "Power −Σ (c (ω − ω_parent)² + k ω²{laws}) (in W) of friction c and drag k{meaning} on the whole tree{with_between}{with_lines}, never positive: dE/dt of E = K + U is this and {others}. NaN for a slice of another length than there are links. O(links)."
+                "Power −Σ (c (ω − ω_parent)² + k ω²{laws}) (in W) of friction c and drag k{meaning} on the whole tree{with_between}{with_lines}, never positive. The rate dE/dt of E = K + U is the sum of this power and {others}. NaN if the slice does not have one number per link. O(links)."
             )]);
             quote! {
                 #docs
@@ -154,7 +154,7 @@ impl Emission<'_> {
             let docs = doc_lines(&self.meaning(Purpose::OutsidePower));
             quote! {
                 #docs
-                /// NaN for slices of another length than there are links. O(links).
+                /// NaN if a slice does not have one number per link. O(links).
                 #[must_use]
                 pub fn outside_power(&self, omega: &[T], torques: &[T]) -> T {
                     self.bodies.outside_power(omega, torques)

@@ -1,4 +1,4 @@
-//! Rows of constants of a link with named fields, for trees whose rows other code forms.
+//! Rows of a link's constants with named fields, for trees whose rows are computed by other code.
 
 use super::Emission;
 use super::doc_text::doc_lines;
@@ -8,7 +8,7 @@ use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
 
 impl Emission<'_> {
-    /// The rows that the equations read, and those of energies and powers.
+    /// Emits the rows that the equations of motion read, and those of energies and powers.
     pub(super) fn named_rows(&self, strips: &LoopTree) -> TokenStream {
         let constants = self.named_row("Row", "the equations read", &strips.columns);
         let energies = self.scene.requests.energies;
@@ -48,7 +48,7 @@ impl Emission<'_> {
     }
 }
 
-/// The meaning of a column as a sentence.
+/// Returns the meaning of a column as a sentence.
 fn sentence(column: Column) -> String {
     let meaning = column.meaning();
     let mut letters = meaning.chars();

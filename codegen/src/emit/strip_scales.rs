@@ -1,5 +1,5 @@
-//! Energies by scale of trees in loops: the functions of one link, and the trait of the
-//! model.
+//! Energies by scale (generation of the branching) of trees in loops: the functions of one link,
+//! and the trait of the model.
 
 use super::Emission;
 use crate::functions::{Purpose, ScaleFunction};
@@ -9,14 +9,14 @@ use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
 impl Emission<'_> {
-    /// Returns `impl ScaleEquations` and `impl Scales`, where energies by scale are asked for.
+    /// Emits `impl ScaleEquations` and `impl Scales`, if energies by scale are requested.
     pub(super) fn strip_scales(&self) -> TokenStream {
         let (equations, model) = (self.scale_equations(), self.scales_of_model());
         quote!(#equations #model)
     }
 
-    /// Returns the copies of each generation under each link of the one before, where energies
-    /// by scale are asked for.
+    /// Returns the number of copies in each generation under each link of the one before, if
+    /// energies by scale are requested.
     fn scale_copies(&self) -> Option<Vec<usize>> {
         let Layout::Generations { branching, .. } = self.scene.layout else {
             return None;
@@ -26,7 +26,7 @@ impl Emission<'_> {
         (self.scene.requests.scales()).then(|| copies.collect())
     }
 
-    /// Returns `impl ScaleEquations`.
+    /// Emits `impl ScaleEquations`.
     pub(super) fn scale_equations(&self) -> Option<TokenStream> {
         self.scale_copies()?;
         let (runtime, equations) = (self.runtime(), self.equations_name());
@@ -40,20 +40,20 @@ impl Emission<'_> {
         let drag = any(PassiveTorques::has_drag);
         let moved = self.has_moving_pivot();
         Some(quote! {
-            // Of commas: all tokens stand where the attribute does, see `emit`.
+            // For the lint about commas: all tokens have the span of the attribute, see `emit`.
             #[allow(clippy::many_single_char_names, clippy::possible_missing_comma)]
             impl #runtime::tree::ScaleEquations for #equations {
                 const SPRINGS: bool = #springs;
                 const FRICTION: bool = #friction;
                 const DRAG: bool = #drag;
-                const MOVED: bool = #moved;
+                const DRIVEN: bool = #moved;
 
                 #(#functions)*
             }
         })
     }
 
-    /// Returns `impl Scales` of the model.
+    /// Emits `impl Scales` of the model.
     fn scales_of_model(&self) -> Option<TokenStream> {
         let copies = self.scale_copies()?.into_iter();
         let copies = copies.map(Literal::usize_unsuffixed);
@@ -88,8 +88,8 @@ impl Emission<'_> {
         })
     }
 
-    /// The functions of the energies by scale with what changes them, without torques from
-    /// outside and under them.
+    /// Emits the functions of the energies by scale and their rates, without and with external
+    /// torques.
     fn budgets_by_scale(&self) -> TokenStream {
         let (runtime, time) = (self.runtime(), self.time_name());
         let drive = match self.mechanics.drive {
@@ -127,7 +127,7 @@ impl Emission<'_> {
         }
     }
 
-    /// The derived formulas behind a function of a link.
+    /// Returns the formulas of a function of one link.
     pub(super) fn scale_formulas(&self, function: ScaleFunction) -> Vec<NamedFormula> {
         let mechanics = self.mechanics;
         let (Some(scales), Some(forces), Some(body)) =

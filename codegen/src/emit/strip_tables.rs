@@ -1,5 +1,5 @@
-//! The constants of a tree in loops: tables of exact numbers, and what parameters put
-//! in their places.
+//! Constants of a tree in loops: tables of exact numbers, with values that depend on parameters
+//! filled in.
 
 use super::Emission;
 use super::doc_text::doc_lines;
@@ -12,7 +12,7 @@ use quote::{format_ident, quote};
 use std::collections::BTreeMap;
 
 impl Emission<'_> {
-    /// `Self { … }`, the constants in place.
+    /// Emits `Self { … }` with all constants.
     pub(super) fn strip_values(&self, strips: &LoopTree) -> TokenStream {
         let runtime = self.runtime();
         let (lines, known) = self.formed_constants(strips);
@@ -22,7 +22,7 @@ impl Emission<'_> {
         let gravity = self.root_gravity(&known);
         let (parents, tree) = match self.scene.layout {
             Layout::Generations { .. } => (None, quote!(new(#rows, #gravity))),
-            _ => (
+            Layout::Unrolled | Layout::Links => (
                 Some(self.parents()),
                 quote!(with_parents(&PARENTS, &#rows, #gravity)),
             ),
@@ -44,7 +44,7 @@ impl Emission<'_> {
         }
     }
 
-    /// The shape of the tree, as further tables ask for it.
+    /// Emits the shape of the tree, which further tables need.
     fn shape(&self) -> TokenStream {
         let runtime = self.runtime();
         let shape = match self.scene.layout {
@@ -52,12 +52,12 @@ impl Emission<'_> {
                 let equations = format_ident!("{}Equations", self.item.ident);
                 quote!(Generations(<#equations as #runtime::tree::LinkEquations>::COPIES))
             }
-            _ => quote!(Parents(&PARENTS)),
+            Layout::Unrolled | Layout::Links => quote!(Parents(&PARENTS)),
         };
         quote!(#runtime::tree::Shape::#shape)
     }
 
-    /// The table that energies and powers read, with its field.
+    /// Emits the table that energies and powers read, with its field.
     fn bodies(
         &self,
         strips: &LoopTree,
@@ -73,7 +73,7 @@ impl Emission<'_> {
         })
     }
 
-    /// The table that positions read, with its field.
+    /// Emits the table that positions read, with its field.
     fn properties(
         &self,
         strips: &LoopTree,
@@ -94,7 +94,7 @@ impl Emission<'_> {
         })
     }
 
-    /// The fields of the constants that the model stores besides.
+    /// Emits the fields of the other constants that the model stores.
     fn stored_values(&self, known: &BTreeMap<ConstantId, Ident>) -> Vec<TokenStream> {
         let stored = self.stored_constants();
         let stored = stored.iter().map(|&id| {
@@ -110,8 +110,8 @@ impl Emission<'_> {
         stored.collect()
     }
 
-    /// `let` lines for all constants that parameters are involved in, of the strips and
-    /// of the drive, and their names.
+    /// Returns `let` lines for all constants of the tree and of the drive that depend on
+    /// parameters, and the names of these constants.
     fn formed_constants(
         &self,
         strips: &LoopTree,
@@ -142,7 +142,7 @@ impl Emission<'_> {
         entry.map_or(&[], |entry| &entry.outputs)
     }
 
-    /// Apparent gravity at the root's pivot without a drive.
+    /// Emits the apparent gravity at the root's pivot without a drive.
     fn root_gravity(&self, known: &BTreeMap<ConstantId, Ident>) -> TokenStream {
         let components = self.root_outputs().iter().map(|&id| match self.op(id) {
             Op::Constant(constant) => self.known_value(*constant, known),
@@ -163,7 +163,7 @@ impl Emission<'_> {
         }
     }
 
-    /// The parents, root first.
+    /// Emits the parents of the links, from the root on.
     fn parents(&self) -> TokenStream {
         let count = Literal::usize_unsuffixed(self.scene.links.len());
         let parents = self.scene.links.iter().map(|link| {
@@ -171,13 +171,13 @@ impl Emission<'_> {
             Literal::usize_unsuffixed(parent)
         });
         quote! {
-            /// The parent of each link, which stands before it; the root has none.
+            /// Index of the parent of each link, which is an earlier link; unused for the root.
             static PARENTS: [u32; #count] = [#(#parents),*];
         }
     }
 
-    /// A table of constants, and the vector of these in the model's scalar, one row after
-    /// the other, in which values of parameters are put in place.
+    /// Emits a table of constants as exact numbers, and code that converts it to a vector in the
+    /// model's scalar, row by row, with the values that depend on parameters inserted.
     fn table(
         &self,
         name: &str,
@@ -191,7 +191,7 @@ impl Emission<'_> {
         let name = format_ident!("{name}");
         let row = match self.scene.layout {
             Layout::Generations { .. } => "generation",
-            _ => "link",
+            Layout::Unrolled | Layout::Links => "link",
         };
         let mut docs = vec![
             format!(
@@ -237,7 +237,7 @@ impl Emission<'_> {
     }
 }
 
-/// Names and meanings of columns.
+/// Returns names and meanings of columns.
 fn named(columns: &[Column]) -> Vec<String> {
     let columns = columns.iter();
     columns

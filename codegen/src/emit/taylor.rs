@@ -1,6 +1,6 @@
-//! The function for the Taylor coefficients of the motion: the constants that the
-//! recurrences of the runtime ask for, and what is not among these, at the start
-//! and as a closure for one order.
+//! The function for the Taylor coefficients of the motion: the constants that the runtime's
+//! recurrences need, and the other terms of the equation, at the start and as a closure for one
+//! order.
 
 use super::Emission;
 use super::doc_text::doc_lines;
@@ -72,29 +72,30 @@ impl Emission<'_> {
         }
     }
 
-    /// The arguments of which numbers are read, taken apart.
+    /// Emits patterns that split arguments into those elements that are read.
     fn inputs_at_start(
         &self,
         entry: &Entry,
         read: &[ValueId],
         locals: &Locals,
     ) -> Vec<TokenStream> {
-        // Angles and velocities are handed on besides.
+        // Angles and velocities are also passed on as a whole.
         let arguments = entry.arguments.iter();
         arguments
             .filter(|argument| **argument == Argument::Time || self.reads(**argument, read))
-            .map(|&argument| self.take_apart(argument, read, locals))
+            .map(|&argument| self.destructure(argument, read, locals))
             .collect()
     }
 
-    /// The sines and cosines at the start, of which other lines form the arrays.
+    /// Emits the sines and cosines at the initial state, whose arrays are computed by other lines.
     fn sines_at_start(&self, outputs: &TaylorOutputs, locals: &Locals) -> TokenStream {
         let [sines, cosines] =
             [&outputs.sines, &outputs.cosines].map(|values| self.taylor_numbers(values, locals));
         quote!(sines: #sines, cosines: #cosines)
     }
 
-    /// The rows of factors and the closure for the bias of one order, and how `expand` takes it.
+    /// Emits the rows of factors, the closure for the bias of one order, and the call of `expand`
+    /// that receives them.
     fn bias_by_order(&self, recurrences: &Recurrences<'_>) -> (TokenStream, TokenStream) {
         let (runtime, links) = (self.runtime(), self.links());
         match recurrences.is_empty() {
@@ -116,7 +117,7 @@ impl Emission<'_> {
         }
     }
 
-    /// `[…]`
+    /// Emits `[…]`.
     fn taylor_numbers(&self, values: &[ValueId], locals: &Locals) -> TokenStream {
         let values = values
             .iter()
@@ -124,7 +125,7 @@ impl Emission<'_> {
         quote!([#(#values),*])
     }
 
-    /// `LinkConstants { … }`
+    /// Emits `LinkConstants { … }`.
     fn link_constants(&self, outputs: &TaylorOutputs, locals: &Locals) -> TokenStream {
         let list = |values: &[ValueId]| self.taylor_numbers(values, locals);
         let pairs = |[along, lateral]: &[Vec<ValueId>; 2]| {
@@ -146,12 +147,12 @@ impl Emission<'_> {
         }
     }
 
-    /// Groups of four that hold a number of each link.
+    /// Returns the number of groups of four that hold one number per link.
     fn quads(&self) -> Literal {
         Literal::usize_unsuffixed(self.scene.links.len().div_ceil(4))
     }
 
-    /// The type that says which link hangs on which.
+    /// Emits the type that contains the parent of each link.
     fn connectivity(&self, outputs: &TaylorOutputs) -> TokenStream {
         let (runtime, links) = (self.runtime(), self.links());
         let parents = self.scene.links.iter().map(|link| {
@@ -187,7 +188,7 @@ impl Emission<'_> {
         doc_lines(&lines)
     }
 
-    /// The runtime's trait for it, in slices of any length.
+    /// Emits the runtime's trait, on slices of any length.
     pub(super) fn taylor_pendulum(&self) -> TokenStream {
         let (name, runtime) = (&self.item.ident, self.runtime());
         let Some(entry) = self.entry(Purpose::TaylorCoefficients) else {
@@ -195,7 +196,7 @@ impl Emission<'_> {
         };
         let outputs = TaylorOutputs::of(&entry.outputs, self.scene.links.len());
         let links = self.links();
-        let rows = Recurrences::new(self, entry, &outputs.bias).room();
+        let rows = Recurrences::new(self, entry, &outputs.bias).workspace_len();
         let argument = self.mechanics.drive.as_ref().map(|_| quote!(time,));
         let body = self.with_arrays(
             &[vec!["theta", "omega"]],
@@ -243,8 +244,8 @@ impl Emission<'_> {
     }
 }
 
-/// The line that forms all sines and cosines, where nothing else is formed at the start, and the
-/// arrays of it.
+/// Returns the line that computes all sines and cosines if nothing else is computed at the initial
+/// state, and the names of the resulting arrays.
 fn sines_alone() -> (TokenStream, TokenStream) {
     (
         quote!(let (sines, cosines) = T::sin_cos_each(theta);),

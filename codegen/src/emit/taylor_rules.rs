@@ -1,4 +1,4 @@
-//! The recurrences of the operations: what becomes of each in order k.
+//! Recurrences of the operations: the coefficient of order k from known ones.
 
 use super::taylor_order::Recurrences;
 use super::tokens::Binding;
@@ -8,7 +8,7 @@ use proc_macro2::TokenStream;
 use quote::quote;
 
 impl Recurrences<'_> {
-    /// The recurrence of an operation, in the coefficients of order k and 0.
+    /// Returns the recurrence of an operation, in terms of the coefficients of orders k and 0.
     pub(super) fn definition(&self, id: ValueId) -> (TokenStream, Binding) {
         let op = self.emission.op(id);
         let varies = |id: &ValueId| self.varies[id];
@@ -64,7 +64,7 @@ impl Recurrences<'_> {
         }
     }
 
-    /// The recurrence of a quotient whose divisor varies.
+    /// Returns the recurrence of a quotient whose divisor is not constant.
     fn quotient(&self, id: ValueId, [a, b]: [ValueId; 2]) -> (TokenStream, Binding) {
         // u = v w, solved for w[k].
         let (sum, w_0) = (
@@ -85,7 +85,7 @@ impl Recurrences<'_> {
         }
     }
 
-    /// The recurrence of the sine or cosine of an angle.
+    /// Returns the recurrence of the sine or cosine of an angle.
     fn turn(&self, op: &Op, angle: ValueId) -> (TokenStream, Binding) {
         // k s[k] = Σ j a[j] c[k−j], k c[k] = −Σ j a[j] s[k−j]
         let (sum, inverse) = (self.sum(op), &self.inverse_order);

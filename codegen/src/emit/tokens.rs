@@ -1,4 +1,4 @@
-//! Names and numbers as tokens, and how tightly expressions bind.
+//! Names and numbers as tokens, and binding strengths of expressions.
 
 use crate::exact::Rational;
 use proc_macro2::{Ident, Literal, Span, TokenStream};
@@ -8,7 +8,7 @@ pub(super) fn ident(name: &str) -> Ident {
     Ident::new(name, Span::call_site())
 }
 
-/// Binding strength of a written expression.
+/// Binding strength (precedence) of an emitted expression.
 #[derive(Clone, Copy, PartialEq, PartialOrd)]
 pub(super) enum Binding {
     Sum,
@@ -17,8 +17,8 @@ pub(super) enum Binding {
     Atom,
 }
 
-/// `T::from_f64(2.0)`, or `T::from_parts(0.1, -5.551115123125783e-18)` for a
-/// number that no `f64` is.
+/// Returns `T::from_f64(2.0)`, or `T::from_parts(0.1, -5.551115123125783e-18)` for a number that is
+/// not exactly an `f64`.
 pub(super) fn number_tokens(number: &Rational) -> TokenStream {
     let [high, low] = part_tokens(number);
     match number.to_parts().1 == 0.0 {
@@ -27,7 +27,7 @@ pub(super) fn number_tokens(number: &Rational) -> TokenStream {
     }
 }
 
-/// The `f64` nearest to a number, and the `f64` nearest to the rest.
+/// Returns the `f64` nearest to a number, and the `f64` nearest to the remainder.
 pub(super) fn part_tokens(number: &Rational) -> [TokenStream; 2] {
     let signed = |value: f64, size: Literal| match value.is_sign_negative() {
         true => quote!(-#size),
@@ -40,7 +40,7 @@ pub(super) fn part_tokens(number: &Rational) -> [TokenStream; 2] {
     [high, low].map(|part| signed(part, float(part.abs())))
 }
 
-/// A positive number, with an exponent where zeros would lead or follow it.
+/// Returns a positive number, with an exponent if it would have leading or trailing zeros.
 pub(super) fn float(value: f64) -> Literal {
     let plain = Literal::f64_unsuffixed(value);
     if value == 0.0 || (1e-4..1e16).contains(&value) {
@@ -49,7 +49,7 @@ pub(super) fn float(value: f64) -> Literal {
     format!("{value:e}").parse().unwrap_or(plain)
 }
 
-/// A number of links, its digits in groups of three: `1_048_575`.
+/// Returns a number of links with its digits in groups of three: `1_048_575`.
 pub(super) fn count(number: usize) -> Literal {
     let digits = number.to_string();
     let grouped: Vec<&str> = digits

@@ -1,8 +1,7 @@
-//! The runtime's traits for the model. Their slices may have any length; a
-//! wrong one yields NaN, which integrators report at once.
+//! The runtime's traits for the model. Their slices may have any length; a wrong length gives NaN,
+//! which integrators report at once.
 
 use super::Emission;
-use super::computes::SliceFunction;
 use crate::functions::Purpose;
 use crate::mechanics::Mechanics;
 use proc_macro2::{Ident, Literal, Span, TokenStream};
@@ -24,7 +23,7 @@ impl Emission<'_> {
         let positions = self.positions_trait();
         let transverse = self.transverse_trait();
         let small = self.small_trait();
-        let forced = self.scene.requests.forces.then(|| self.forced());
+        let functions = self.slice_functions();
         let prescribed = self.prescribed_trait();
         let taylor = self.scene.requests.taylor.then(|| self.taylor_pendulum());
         quote! {
@@ -37,7 +36,7 @@ impl Emission<'_> {
             #positions
             #transverse
             #small
-            #forced
+            #functions
             #prescribed
             #taylor
         }
@@ -47,7 +46,8 @@ impl Emission<'_> {
         Literal::usize_unsuffixed(self.scene.links.len())
     }
 
-    /// The time of the equations of motion, which undriven trees ignore.
+    /// Returns the name of the time argument of the equations of motion, which trees without a
+    /// drive ignore.
     pub(super) fn time_name(&self) -> Ident {
         let name = match self.mechanics.drive {
             Some(_) => "time",
@@ -100,7 +100,7 @@ impl Emission<'_> {
         }
     }
 
-    /// `impl Model`, with a cast of each constant that is stored.
+    /// Emits `impl Model`, with the conversion of each stored constant to another scalar.
     fn model_of_constants(&self) -> TokenStream {
         let (name, runtime) = (&self.item.ident, self.runtime());
         let fields: Vec<Ident> = self
@@ -124,22 +124,7 @@ impl Emission<'_> {
         })
     }
 
-    /// The accelerations under torques; NaN for slices of a wrong length.
-    fn forced(&self) -> TokenStream {
-        let function = SliceFunction {
-            name: "AccelerationsUnderTorques",
-            given: &["theta", "omega", "torques"],
-            results: &["alpha"],
-            index: None,
-        };
-        self.computes(
-            &function,
-            &self.fill("alpha", Purpose::AccelerationsUnder),
-            None,
-        )
-    }
-
-    /// `impl Canonical`; NaN for slices of a wrong length.
+    /// Emits `impl Canonical`; slices of a wrong length give NaN.
     fn canonical(&self) -> TokenStream {
         let (name, runtime, links) = (&self.item.ident, self.runtime(), self.links());
         let rates = ["q_rates", "p_rates"];
@@ -190,17 +175,7 @@ impl Emission<'_> {
     fn symmetric_pendulum(&self) -> TokenStream {
         let (name, runtime) = (&self.item.ident, self.runtime());
         let names = coordinate_names(self.mechanics);
-        let function = SliceFunction {
-            name: "SymmetricAccelerations",
-            given: &["coordinates", "rates"],
-            results: &["accelerations"],
-            index: None,
-        };
-        let body = self.fill("accelerations", Purpose::SymmetricAccelerations);
-        let accelerations = self.computes(&function, &body, None);
         quote! {
-            #accelerations
-
             impl<T: #runtime::Scalar> #runtime::SymmetricPendulum<T> for #name<T> {
                 const COORDINATE_NAMES: &'static [&'static str] = &[#(#names),*];
             }
@@ -208,7 +183,7 @@ impl Emission<'_> {
     }
 }
 
-/// `theta_parent`, `theta_m`, …
+/// Returns `theta_parent`, `theta_m`, ….
 fn coordinate_names(mechanics: &Mechanics) -> Vec<String> {
     mechanics
         .symmetric

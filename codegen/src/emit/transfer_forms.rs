@@ -1,5 +1,5 @@
-//! `impl TransferForms`: the forms of W by number, where a scene has truncated
-//! ones beside the exact one.
+//! Emits `impl TransferForms`: the forms of the transfer W by index, if a scene has truncated forms
+//! and the exact one.
 
 use super::Emission;
 use crate::functions::{Counting, EntryState, Purpose};
@@ -9,7 +9,7 @@ use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
 use std::collections::BTreeMap;
 
-/// A form, in the order in which forms are listed.
+/// A form of W, in the order in which forms are listed.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum ListedForm {
     Angle(u32),
@@ -18,7 +18,7 @@ enum ListedForm {
 }
 
 impl ListedForm {
-    /// The form as the runtime names it.
+    /// Returns the form as the runtime names it.
     fn name(self, runtime: &TokenStream) -> TokenStream {
         match self {
             Self::Angle(order) => {
@@ -34,7 +34,7 @@ impl ListedForm {
     }
 }
 
-/// The forms in their order, each as an array of transfers.
+/// The forms in order, each with the call that returns an array of transfers.
 type Calls = Vec<(ListedForm, TokenStream)>;
 
 impl Emission<'_> {
@@ -50,40 +50,38 @@ impl Emission<'_> {
         Some(self.implementation(&receivers, &forms, &self.small_sectors(&all)))
     }
 
-    /// Calls for W of all sectors; none without both a truncated and the exact
-    /// form.
+    /// Returns the calls for W of all sectors; `None` unless there are both truncated forms and the
+    /// exact one.
     fn budget_forms(&self) -> Option<Calls> {
         let mut forms = BTreeMap::new();
         for entry in &self.program.entries {
             let call = call(entry);
-            match entry.purpose {
-                Purpose::TruncatedSectorTransfers(counting, order) => {
-                    forms.insert(truncated(counting, order), call);
-                }
-                Purpose::SectorTransfers(EntryState::Rates) => {
-                    let name = format_ident!("{}", entry.name);
-                    let exact = quote! {{
-                        let rates = self.symmetric_velocities(coordinates, momenta);
-                        self.#name(coordinates, &rates)
-                    }};
-                    forms.insert(ListedForm::Exact, exact);
-                }
-                _ => {}
+            if let Purpose::TruncatedSectorTransfers(counting, order) = entry.purpose {
+                forms.insert(truncated(counting, order), call);
+            } else if entry.purpose == Purpose::SectorTransfers(EntryState::Rates) {
+                let name = format_ident!("{}", entry.name);
+                let exact = quote! {{
+                    let rates = self.symmetric_velocities(coordinates, momenta);
+                    self.#name(coordinates, &rates)
+                }};
+                forms.insert(ListedForm::Exact, exact);
             }
         }
         complete(forms)
     }
 
-    /// Names of the differences of leaves and calls for W into all of them.
+    /// Returns the names of the differences between leaves, and the calls for W into all of them.
     fn leaf_forms(&self) -> Option<(Vec<String>, Calls)> {
         let mut forms: BTreeMap<ListedForm, Vec<TokenStream>> = BTreeMap::new();
         for entry in &self.program.entries {
-            let form = match entry.purpose {
-                Purpose::TruncatedTransfer(_, counting, order) => truncated(counting, order),
-                Purpose::ExactTransfer(_, EntryState::Momenta(_)) => ListedForm::Exact,
-                _ => continue,
+            let form = if let Purpose::TruncatedTransfer(_, counting, order) = entry.purpose {
+                truncated(counting, order)
+            } else if let Purpose::ExactTransfer(_, EntryState::Momenta(_)) = entry.purpose {
+                ListedForm::Exact
+            } else {
+                continue;
             };
-            // Entries stand in the order of the transfers.
+            // Entry points are in the order of the transfers.
             forms.entry(form).or_default().push(call(entry));
         }
         let forms = forms
@@ -97,7 +95,7 @@ impl Emission<'_> {
         Some((names, complete(forms)?))
     }
 
-    /// The sectors that count as small: all differences, unless some are named.
+    /// Returns the sectors that count as small: all differences, unless some are named.
     fn small_sectors(&self, all: &[SectorVariables]) -> Vec<SectorVariables> {
         let request = self.scene.requests.budget.as_ref();
         let named = request.map_or(&[][..], |budget| budget.small.as_slice());
@@ -127,7 +125,7 @@ impl Emission<'_> {
             })
         });
         let transfers = self.transfers_by_form(forms);
-        let momenta = self.fill("momenta", Purpose::SymmetricMomenta);
+        let momenta = self.fill(&["momenta"], Purpose::SymmetricMomenta);
         quote! {
             // As for the functions above.
             #[allow(clippy::possible_missing_comma)]
@@ -161,7 +159,7 @@ impl Emission<'_> {
         }
     }
 
-    /// What `transfers_into` does with the number of a form.
+    /// Emits the body of `transfers_into`, which selects a form by its index.
     fn transfers_by_form(&self, forms: &[(ListedForm, TokenStream)]) -> TokenStream {
         let runtime = self.runtime();
         let arms = forms.iter().enumerate().map(|(number, (_, call))| {
@@ -194,7 +192,7 @@ fn call(entry: &Entry) -> TokenStream {
     quote!(self.#name(coordinates, momenta))
 }
 
-/// The forms in their order; none unless the exact one is there with others.
+/// Returns the forms in order; `None` unless the exact form and at least one other are present.
 fn complete(forms: BTreeMap<ListedForm, TokenStream>) -> Option<Calls> {
     let compared = forms.len() > 1 && forms.contains_key(&ListedForm::Exact);
     compared.then(|| forms.into_iter().collect())

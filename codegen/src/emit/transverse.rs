@@ -1,16 +1,15 @@
-//! Small differences beside an in-phase motion: docs, formulas and the runtime's trait.
+//! Small differences on an in-phase motion: docs, formulas and the runtime's trait.
 
 use super::Emission;
-use super::computes::SliceFunction;
 use crate::functions::Purpose;
 use crate::mechanics::TransverseFormulas;
-use crate::mechanics::expression::{Expr, NamedFormula};
+use crate::mechanics::expression::NamedFormula;
 use crate::scene::TransverseCopies;
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
 impl Emission<'_> {
-    /// Number of links of a transverse sector.
+    /// Returns the number of links in a transverse sector.
     pub(super) fn transverse_links(&self, sector: usize) -> usize {
         self.transverse_sector(sector).sector.links
     }
@@ -23,80 +22,74 @@ impl Emission<'_> {
         }
     }
 
-    pub(super) fn transverse_meaning(&self, purpose: Purpose) -> Vec<String> {
-        let pattern = |sector: usize| {
-            let sector = &self.transverse_sector(sector).sector;
-            let (name, copies) = (&sector.name, sector.copies);
-            match copies {
-                2 => format!("the two copies of `{name}` have the angles θ ± δ"),
-                _ => format!(
-                    "the {copies} copies of `{name}` have the angles θ + e_c δ with Σ e_c = 0 and Σ e_c² = {copies}"
-                ),
-            }
-        };
-        let below = "and so do the links that hang from them";
-        match purpose {
-            Purpose::Transverse(sector) => vec![
+    /// Describes the angles of the copies in a transverse sector.
+    fn copies_pattern(&self, sector: usize) -> String {
+        let sector = &self.transverse_sector(sector).sector;
+        let (name, copies) = (&sector.name, sector.copies);
+        match copies {
+            2 => format!("the two copies of `{name}` have the angles θ ± δ"),
+            _ => format!(
+                "the {copies} copies of `{name}` have the angles θ + e_c δ with Σ e_c = 0 and Σ e_c² = {copies}"
+            ),
+        }
+    }
+
+    /// Returns the documentation of the accelerations of small differences.
+    pub(super) fn transverse_meaning(&self, sector: usize) -> Vec<String> {
+        vec![
                 format!(
-                    "Second time derivatives (in rad/s²) of small differences `difference` δ (in rad) with rates `difference_rate` (in rad/s) beside the {}in-phase motion: {}, {below}.",
+                    "Second time derivatives (in rad/s²) of small differences `difference` δ (in rad) with rates `difference_rate` (in rad/s) from the {}in-phase motion: {}, as do the links that hang from them.",
                     self.at_time(),
-                    pattern(sector)
+                    self.copies_pattern(sector)
                 ),
                 String::new(),
-                "That motion has angles `theta` (in rad), angular velocities `omega` (in rad/s) and accelerations `alpha` (in rad/s²), as `accelerations` gives them. Linear in δ and exact for infinitesimal ones; for one link Hill's equation.".into(),
+                "That motion has angles `theta` (in rad), angular velocities `omega` (in rad/s) and accelerations `alpha` (in rad/s²), as `accelerations` returns them. The equations are linear in δ and exact for infinitesimal differences; for one link they are Hill's equation.".into(),
                 String::new(),
                 "```text".into(),
                 "M(θ) δ̈ + r(θ, ω, α, δ, δ̇) = 0".into(),
                 "```".into(),
-            ],
-            Purpose::TransverseMotion(sector) => vec![
-                format!(
-                    "Angular accelerations (in rad/s²) of the {}in-phase motion, as [`accelerations`](Self::accelerations) gives them, and after them those of small differences beside it: {}, {below}. Sines, cosines and couplings are formed once for both.",
-                    self.at_time(),
-                    pattern(sector)
-                ),
-            ],
-            Purpose::TransverseEnergy(sector) => vec![format!(
-                "Energy (in J) of small differences, quadratic in them, in the copies under one link: {}, {below}. Its potential part is that about hanging links.",
-                pattern(sector)
-            )],
-            Purpose::TransverseTransfer(sector) => vec![format!(
-                "Energy transfer W (in W) into small differences: the rate of their energy but for friction and drag, quadratic in them: {}, {below}.",
-                pattern(sector)
-            )],
-            _ => vec!["Power (in W) of friction and drag on the energy of small differences.".into()],
-        }
+            ]
     }
 
-    pub(super) fn transverse_formulas(&self, purpose: Purpose) -> Vec<NamedFormula> {
-        let simple = |left: &str, right: &Expr| vec![NamedFormula::of_letter(left, right)];
-        match purpose {
-            Purpose::Transverse(sector) => {
-                let formulas = self.transverse_sector(sector);
-                let mut rows = Vec::new();
-                for (symbol, residual) in formulas.differences.iter().zip(&formulas.residual) {
-                    let symbol = self.mechanics.symbols.get(*symbol);
-                    let name = symbol.text.trim_start_matches("δ_");
-                    let tex = symbol.latex.trim_start_matches("\\delta");
-                    let latex = format!("r{tex}");
-                    rows.push(NamedFormula::new(format!("r_{name}"), latex, residual));
-                }
-                rows
-            }
-            Purpose::TransverseEnergy(sector) => {
-                simple("E", &self.transverse_sector(sector).energy)
-            }
-            Purpose::TransverseTransfer(sector) => {
-                simple("W", &self.transverse_sector(sector).transfer)
-            }
-            Purpose::TransverseFriction(sector, _) => {
-                simple("P", &self.transverse_sector(sector).friction)
-            }
-            _ => Vec::new(),
-        }
+    /// Returns the documentation of the in-phase motion together with small differences.
+    pub(super) fn transverse_motion_meaning(&self, sector: usize) -> Vec<String> {
+        vec![format!(
+            "Angular accelerations (in rad/s²) of the {}in-phase motion, as [`accelerations`](Self::accelerations) returns them, followed by those of small differences from it: {}, as do the links that hang from them. Sines, cosines and couplings are computed once for both.",
+            self.at_time(),
+            self.copies_pattern(sector)
+        )]
     }
 
-    /// `impl Transverse`; NaN for slices of a wrong length.
+    /// Returns the documentation of the energy of small differences.
+    pub(super) fn transverse_energy_meaning(&self, sector: usize) -> Vec<String> {
+        vec![format!(
+            "Energy (in J) of small differences, quadratic in them, in the copies under one link: {}, as do the links that hang from them. Its potential part is that about the hanging tree.",
+            self.copies_pattern(sector)
+        )]
+    }
+
+    /// Returns the documentation of the energy transfer into small differences.
+    pub(super) fn transverse_transfer_meaning(&self, sector: usize) -> Vec<String> {
+        vec![format!(
+            "Energy transfer W (in W) into small differences: the rate of their energy without friction and drag, quadratic in them: {}, as do the links that hang from them.",
+            self.copies_pattern(sector)
+        )]
+    }
+
+    /// Returns the formulas of the residual torques on small differences, one row per difference.
+    pub(super) fn transverse_residuals(&self, sector: usize) -> Vec<NamedFormula> {
+        let formulas = self.transverse_sector(sector);
+        let rows = formulas.differences.iter().zip(&formulas.residual);
+        let rows = rows.map(|(symbol, residual)| {
+            let symbol = self.mechanics.symbols.get(*symbol);
+            let name = symbol.text.trim_start_matches("δ_");
+            let tex = symbol.latex.trim_start_matches("\\delta");
+            NamedFormula::new(format!("r_{name}"), format!("r{tex}"), residual)
+        });
+        rows.collect()
+    }
+
+    /// Emits `impl Transverse`; slices of a wrong length give NaN.
     pub(super) fn transverse_trait(&self) -> Option<TokenStream> {
         let transverse = self.mechanics.transverse.as_ref()?;
         let (name, runtime) = (&self.item.ident, self.runtime());
@@ -105,13 +98,10 @@ impl Emission<'_> {
         let time = self.time_name();
         let unknown = self.unknown(&["accelerations"]);
         let accelerations = self.match_sector(&unknown, |number, _| {
-            self.fill("accelerations", Purpose::Transverse(number))
+            self.fill(&["accelerations"], Purpose::Transverse(number))
         });
         let energies = self.transverse_energies();
-        let both = self.motion_with_differences();
         Some(quote! {
-            #both
-
             impl<T: #runtime::Scalar> #runtime::Transverse<T> for #name<T> {
                 const TRANSVERSE: &'static [#runtime::system::TransverseSector] =
                     &[#(#sectors),*];
@@ -135,7 +125,7 @@ impl Emission<'_> {
         })
     }
 
-    /// The functions of the energy of small differences, and of what changes it.
+    /// Emits the functions of the energy of small differences, and of its rates.
     fn transverse_energies(&self) -> TokenStream {
         let (runtime, time) = (self.runtime(), self.time_name());
         let energy = self.match_sector(&nan(), |number, _| {
@@ -184,22 +174,8 @@ impl Emission<'_> {
         }
     }
 
-    /// Accelerations of the in-phase motion and of small differences, as one function.
-    fn motion_with_differences(&self) -> TokenStream {
-        let unknown = self.unknown(&["accelerations"]);
-        let accelerations = self.match_sector(&unknown, |number, _| {
-            self.fill("accelerations", Purpose::TransverseMotion(number))
-        });
-        let function = SliceFunction {
-            name: "LinearDifferences",
-            given: &["theta", "omega", "difference", "difference_rate"],
-            results: &["accelerations"],
-            index: Some("sector"),
-        };
-        self.computes(&function, &accelerations, None)
-    }
-
-    /// The trait's power of friction at a motion, where some sector's depends on that.
+    /// Emits the trait's power of friction at a state of motion, if in some sector this power
+    /// depends on the motion.
     fn braked_power(&self) -> Option<TokenStream> {
         let transverse = self.mechanics.transverse.as_ref()?;
         let mut sectors = transverse.sectors.iter();
@@ -219,7 +195,7 @@ impl Emission<'_> {
         })
     }
 
-    /// `TransverseCopies { … }`.
+    /// Emits `TransverseCopies { … }`.
     fn sector_constant(&self, sector: &TransverseCopies) -> TokenStream {
         let TransverseCopies {
             name,
@@ -242,7 +218,8 @@ impl Emission<'_> {
         }
     }
 
-    /// The power of friction of sectors where it depends on the motion, and of the others.
+    /// Emits the power of friction of the sectors in which it depends on the motion, and of the
+    /// others.
     fn friction_along(&self) -> TokenStream {
         let runtime = self.runtime();
         self.match_sector(&nan(), |number, formulas| match formulas.braked {
@@ -259,8 +236,8 @@ impl Emission<'_> {
         })
     }
 
-    /// The function for the power of friction, which takes the rates alone and may be zero. None
-    /// where it takes the motion too.
+    /// Emits the power of friction of the sectors in which it depends on the motion, and of the
+    /// other sectors.
     fn friction_by_sector(&self) -> TokenStream {
         let runtime = self.runtime();
         self.match_sector(&nan(), |number, formulas| {
@@ -278,7 +255,8 @@ impl Emission<'_> {
         })
     }
 
-    /// `match sector { 0 => …, … }`, a value of each sector, and one where there is none.
+    /// Emits the function for the power of friction on the differences, which may be zero. `None`
+    /// if the power depends on the in-phase motion too.
     fn match_sector(
         &self,
         none: &TokenStream,
@@ -300,7 +278,7 @@ impl Emission<'_> {
     }
 }
 
-/// Stand-in for a number that there is not.
+/// Returns an expression for NaN, which is returned for a quantity that does not exist.
 fn nan() -> TokenStream {
     quote!(T::from_f64(f64::NAN))
 }

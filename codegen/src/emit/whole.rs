@@ -1,4 +1,4 @@
-//! The whole tree behind a reduced one, as data.
+//! Emits the whole tree that a reduced model represents, as data.
 
 use super::Emission;
 use super::doc_text::doc_lines;
@@ -7,7 +7,7 @@ use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
 impl Emission<'_> {
-    /// The constant `WHOLE` of a reduced model.
+    /// Emits the constant `WHOLE` of a reduced model.
     pub(super) fn whole_tree(&self) -> Option<TokenStream> {
         let Reduction {
             order,
@@ -64,14 +64,14 @@ impl Emission<'_> {
         })
     }
 
-    /// Words about the whole tree.
+    /// Returns the docs of the whole tree.
     fn whole_docs(&self) -> Vec<String> {
         let Some(Reduction { links, orbits, .. }) = &self.scene.reduction else {
             return Vec::new();
         };
         let mut lines = vec![
             format!(
-                "The tree of {links} links that this one stands for. Its links are in the order of the same description without `in_phase` and `locked`."
+                "The tree of {links} links whose motion this model describes. Its links have the order of the same description without `in_phase` and `locked`."
             ),
             String::new(),
         ];

@@ -1,5 +1,6 @@
-//! Integers and fractions of any length: those of the algebra where it is there, which computes
-//! with the same; without it those of `num`, a hundredth of the code of a program that holds them.
+//! Integers and fractions of arbitrary length. With the feature `symbolica` they are the types of
+//! the computer algebra; without it they are the types of `num`, which add only a hundredth of that
+//! code to a program and give identical results.
 
 #[cfg(feature = "symbolica")]
 pub(super) use numerica::domains::{integer::Integer, rational::Rational as Fraction};
@@ -17,7 +18,7 @@ mod plain {
     use num_rational::BigRational;
     use num_traits::{One as _, Signed as _, Zero as _};
 
-    /// An integer.
+    /// An integer of arbitrary length.
     #[derive(Clone, PartialEq, Eq, Hash)]
     pub(crate) struct Integer(BigInt);
 
@@ -71,7 +72,8 @@ mod plain {
             self.0.bits()
         }
 
-        /// Powers beyond 2³² are none that memory holds.
+        /// Returns `self ^ exponent`. An exponent beyond 2³² is read as `u32::MAX`: no memory holds
+        /// such a power.
         pub(crate) fn pow(&self, exponent: u64) -> Self {
             Self(self.0.pow(u32::try_from(exponent).unwrap_or(u32::MAX)))
         }

@@ -1,7 +1,7 @@
-//! Exact numbers: what a decimal literal means before anything is rounded.
+//! Exact rational numbers: the values of decimal literals before any rounding.
 //!
-//! Every literal of a description is read as a rational number and combined
-//! exactly; [`Rational::to_f64`] rounds once, at the very end.
+//! Every literal of a description is read as a rational number, and all arithmetic on it is exact;
+//! [`Rational::to_f64`] rounds once, at the very end.
 
 mod integers;
 mod operators;
@@ -22,7 +22,7 @@ use self::integers::Fraction;
 #[derive(Clone, PartialEq, Eq)]
 pub struct Rational(Fraction);
 
-/// Why an operation on exact numbers gave no number.
+/// Reason why an operation on exact numbers has no result.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ExactError {
     /// The text is not a decimal number.
@@ -58,32 +58,31 @@ impl fmt::Display for ExactError {
 impl std::error::Error for ExactError {}
 
 impl Rational {
-    /// Largest decimal exponent that a literal may carry, either sign. It
-    /// covers every `f64` and keeps `1e999999999` from filling the memory.
+    /// Largest magnitude of the decimal exponent of a literal. It covers every `f64` and prevents
+    /// `1e999999999` from filling the memory.
     pub const MAX_EXPONENT: i32 = 400;
 
-    /// Longest numerator or denominator, in bits, that
-    /// [`checked_pow`](Self::checked_pow) forms and that
-    /// [`is_short`](Self::is_short) accepts.
+    /// Largest length of a numerator or denominator, in bits, that
+    /// [`checked_pow`](Self::checked_pow) returns and that [`is_short`](Self::is_short) accepts.
     pub const MAX_BITS: u64 = 8192;
 
-    /// The number 0.
+    /// Returns the number 0.
     pub fn zero() -> Self {
         Self(Fraction::zero())
     }
 
-    /// The number 1.
+    /// Returns the number 1.
     pub fn one() -> Self {
         Self(Fraction::one())
     }
 
-    /// The quotient of two machine integers; `None` when `denominator` is 0.
+    /// Returns the quotient of two machine integers, or `None` if `denominator` is 0.
     pub fn from_ratio(numerator: i64, denominator: i64) -> Option<Self> {
         if denominator == 0 {
             return None;
         }
-        // Wide integers, because the sign moves to the numerator and
-        // `i64::MIN` has no negative.
+        // Integers of arbitrary length, because the sign moves to the numerator and `-i64::MIN`
+        // does not fit into an `i64`.
         Some(Self(Fraction::new(
             i128::from(numerator),
             i128::from(denominator),
@@ -110,25 +109,24 @@ impl Rational {
         self.0.is_integer()
     }
 
-    /// Returns true if numerator and denominator have at most
-    /// [`MAX_BITS`](Self::MAX_BITS) bits each, so that a chain of operations
-    /// can be kept from growing without limit.
+    /// Returns true if numerator and denominator have at most [`MAX_BITS`](Self::MAX_BITS) bits
+    /// each. Callers use it to stop a chain of operations from growing without limit.
     pub fn is_short(&self) -> bool {
         self.bits() <= Self::MAX_BITS
     }
 
-    /// Bits of the longer of numerator and denominator.
+    /// Returns the number of bits of the longer of numerator and denominator.
     fn bits(&self) -> u64 {
         let numerator = self.0.numerator_ref().abs().significant_bits();
         numerator.max(self.0.denominator_ref().significant_bits())
     }
 
-    /// The quotient `self / divisor`; `None` when `divisor` is 0.
+    /// Returns the quotient `self / divisor`, or `None` if `divisor` is 0.
     pub fn checked_div(&self, divisor: &Self) -> Option<Self> {
         (!divisor.is_zero()).then(|| Self(&self.0 / &divisor.0))
     }
 
-    /// The power `self ^ exponent`; `x ^ 0` is 1 for every `x`.
+    /// Returns the power `self ^ exponent`; `x ^ 0` is 1 for every `x`.
     ///
     /// # Errors
     /// [`ExactError::DivisionByZero`] for a negative power of zero,
@@ -139,7 +137,7 @@ impl Rational {
             return Err(ExactError::DivisionByZero);
         }
         let magnitude = u64::from(exponent.unsigned_abs());
-        // 0, 1 and -1 have one bit and stay as short in every power.
+        // 0, 1 and -1 have one bit each, and so does every power of them.
         let bits = self.bits();
         if bits > 1 && bits.saturating_mul(magnitude) > Self::MAX_BITS {
             return Err(ExactError::TooLong);
@@ -156,18 +154,18 @@ impl Rational {
         Ok(Self(if exponent < 0 { power.inv() } else { power }))
     }
 
-    /// The decimal digits of the numerator, with its sign.
+    /// Returns the decimal digits of the numerator, with its sign.
     pub fn numerator_text(&self) -> String {
         self.0.numerator_ref().to_string()
     }
 
-    /// The decimal digits of the denominator, which is positive.
+    /// Returns the decimal digits of the denominator, which is positive.
     pub fn denominator_text(&self) -> String {
         self.0.denominator_ref().to_string()
     }
 
-    /// The nearest `f64`, ties to even; numbers beyond the largest finite
-    /// `f64` give an infinity, as a decimal literal in Rust source does.
+    /// Returns the nearest `f64`, ties to even. Numbers beyond the largest finite `f64` become an
+    /// infinity, as a decimal literal in Rust source does.
     pub fn to_f64(&self) -> f64 {
         let magnitude =
             round::magnitude_to_f64(&self.0.numerator_ref().abs(), self.0.denominator_ref());
@@ -178,9 +176,9 @@ impl Rational {
         }
     }
 
-    /// The nearest `f64` and the nearest to what that leaves: together some 106
-    /// bits. The second is 0 where the first is exact, not finite, or so small
-    /// that the rest is below all `f64`.
+    /// Splits the number into the nearest `f64` and the `f64` nearest to the remainder: together
+    /// about 106 bits. The second is 0 if the first is exact or infinite, or if the remainder is
+    /// smaller than every positive `f64`.
     pub fn to_parts(&self) -> (f64, f64) {
         let high = self.to_f64();
         match Self::from_f64(high) {
@@ -189,7 +187,7 @@ impl Rational {
         }
     }
 
-    /// The value of a finite `f64`; `None` for others.
+    /// Converts a finite `f64` exactly; returns `None` for an infinity or NaN.
     pub fn from_f64(value: f64) -> Option<Self> {
         const MANTISSA_BITS: u32 = 52;
         let bits = value.abs().to_bits();
@@ -213,20 +211,20 @@ impl From<i64> for Rational {
     }
 }
 
-/// The door to the algebra, which shares this representation.
+/// Conversions from and to the computer algebra, which uses the same representation.
 #[cfg(feature = "symbolica")]
 impl Rational {
-    /// The number as the algebra's own type.
+    /// Borrows the number as the type of the computer algebra.
     pub(crate) fn as_inner(&self) -> &Fraction {
         &self.0
     }
 
-    /// The number from the algebra's own type.
+    /// Creates a number from the type of the computer algebra.
     pub(crate) fn from_inner(inner: Fraction) -> Self {
         Self(inner)
     }
 
-    /// The number as a small integer, if it is one.
+    /// Converts the number to an `i32`, if it is an integer in that range.
     pub(crate) fn to_i32(&self) -> Option<i32> {
         self.is_integer()
             .then(|| self.numerator_text().parse().ok())

@@ -1,4 +1,4 @@
-//! Arithmetic, order and hashing of exact numbers.
+//! Arithmetic, comparison and hashing of exact numbers.
 
 use std::cmp::Ordering;
 use std::hash::{Hash, Hasher};
@@ -47,7 +47,7 @@ impl Neg for &Rational {
     }
 }
 
-/// Implements a binary operator for values and references.
+/// Implements a binary operator for [`Rational`] values and references.
 macro_rules! operator {
     ($trait:ident, $method:ident) => {
         impl $trait<&Rational> for &Rational {

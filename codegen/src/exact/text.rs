@@ -1,4 +1,4 @@
-//! Exact numbers read from text, and written as text.
+//! Parsing and printing of exact numbers.
 
 use std::fmt;
 
@@ -6,14 +6,14 @@ use super::integers::Integer;
 
 use super::{ExactError, Fraction, Rational};
 
-/// Decimal digits up to which [`Rational`] prints a terminating decimal as
-/// such; beyond them, and for every other number, it prints `n/d`.
+/// Largest number of digits of a terminating decimal that [`Rational`] prints as a decimal; it
+/// prints every other number as `n/d`.
 const DECIMAL_DIGITS: usize = 25;
 
 impl Rational {
-    /// Reads a decimal literal exactly: an optional sign, digits with
-    /// underscores between them, an optional point and an optional exponent, as
-    /// in `1_000`, `.5`, `1.88e-3`. Type suffixes and other bases are refused.
+    /// Parses a decimal literal exactly: an optional sign, digits with underscores between them, an
+    /// optional decimal point and an optional exponent, as in `1_000`, `.5`, `1.88e-3`. Type
+    /// suffixes and other bases are refused.
     ///
     /// # Errors
     /// [`ExactError::Malformed`], [`ExactError::Exponent`], or
@@ -50,7 +50,7 @@ impl Rational {
         Ok(if negative { -value } else { value })
     }
 
-    /// The terminating decimal expansion, where there is one of at most
+    /// Returns the terminating decimal expansion, or `None` if there is none of at most
     /// [`DECIMAL_DIGITS`] digits.
     pub(crate) fn terminating_decimal(&self) -> Option<String> {
         let mut ten = Integer::one();
@@ -76,7 +76,7 @@ impl Rational {
     }
 }
 
-/// The digits of `text` without the underscores between them.
+/// Returns `text` without the underscores between its digits.
 fn digits(text: &str) -> Result<String, ExactError> {
     text.chars()
         .filter(|&c| c != '_')
@@ -85,7 +85,7 @@ fn digits(text: &str) -> Result<String, ExactError> {
         .ok_or(ExactError::Malformed)
 }
 
-/// A decimal exponent within the limit.
+/// Parses a decimal exponent, at most [`Rational::MAX_EXPONENT`] in magnitude.
 fn parse_exponent(text: &str) -> Result<i32, ExactError> {
     let (negative, unsigned) = match text.strip_prefix('-') {
         Some(rest) => (true, rest),
@@ -95,7 +95,7 @@ fn parse_exponent(text: &str) -> Result<i32, ExactError> {
     if digits.is_empty() {
         return Err(ExactError::Malformed);
     }
-    // Parsing all-digit text fails only by overflow.
+    // A text of digits alone fails to parse only by overflow.
     let magnitude: i32 = digits.parse().map_err(|_| ExactError::Exponent)?;
     if magnitude > Rational::MAX_EXPONENT {
         return Err(ExactError::Exponent);

@@ -1,13 +1,14 @@
-//! Sine and cosine of exact angles.
+//! Sine and cosine of exactly known angles.
 
 use super::Rational;
 
-/// Terms of the series: |x| < 7 leaves less than 2^-200 behind them.
+/// Number of terms of the Taylor series. For |x| < 7 the rest of the series is below 2^-200.
 const TERMS: i64 = 100;
 
 impl Rational {
-    /// Sine and cosine of an angle below 7 rad in magnitude, each to about 150 bits, far
-    /// more than a product of them needs that is rounded to `f64` once. Exact at 0.
+    /// Returns the sine and cosine of an angle below 7 rad in magnitude, each accurate to about 150
+    /// bits. That is far more than a product of the two needs before it is rounded once to `f64`.
+    /// Exact at 0.
     pub fn sine_and_cosine(&self) -> (Self, Self) {
         let (mut sine, mut cosine) = (Self::zero(), Self::one());
         let mut term = Self::one();
@@ -23,7 +24,7 @@ impl Rational {
         (sine.to_bits_of_three(), cosine.to_bits_of_three())
     }
 
-    /// The number cut to the sum of three `f64`, so that a series does not grow.
+    /// Rounds the number to a sum of three `f64` values, so that the terms of a series stay short.
     fn to_bits_of_three(&self) -> Self {
         let (mut sum, mut rest) = (Self::zero(), self.clone());
         for _ in 0..3 {

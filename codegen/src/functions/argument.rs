@@ -1,90 +1,98 @@
-//! Arguments and results of functions.
+//! Arguments and results of generated functions.
 
-/// An argument of an entry point: an array, but for the time.
+/// An argument of an entry point: an array, except the time, which is a number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Argument {
-    /// Time, s: a single number.
+    /// Time, in s: a single number.
     Time,
-    /// Absolute angles, rad.
+    /// Absolute angles, in rad.
     Theta,
-    /// Angular velocities, rad/s.
+    /// Angular velocities, in rad/s.
     Omega,
-    /// Momenta that belong to the absolute angles, kg m²/s.
+    /// Canonical momenta of the absolute angles, in kg m²/s.
     AbsoluteMomenta,
-    /// Symmetric coordinates, rad.
+    /// Symmetric coordinates (means and differences of copies), in rad.
     Coordinates,
-    /// Their velocities, rad/s.
+    /// Velocities of the symmetric coordinates, in rad/s.
     Rates,
-    /// Momenta that belong to the symmetric coordinates, kg m²/s.
+    /// Canonical momenta of the symmetric coordinates, in kg m²/s.
     Momenta,
-    /// Forces on the links, x and y of each, N.
+    /// Forces on the links, x and y of each, in N.
     Forces,
-    /// Angular accelerations, rad/s².
+    /// Angular accelerations, in rad/s².
     Alpha,
-    /// Small differences in the transverse sector with that number, rad.
+    /// Small differences of the transverse sector with this index, in rad.
     Difference(usize),
-    /// Their rates, rad/s.
+    /// Rates of those small differences, in rad/s.
     DifferenceRate(usize),
-    /// Differences in all sectors that act back, one sector after the other, rad.
+    /// Small differences of all sectors that act back on the motion, one sector after the other, in
+    /// rad.
     SmallDifferences,
-    /// Their rates, rad/s.
+    /// Rates of the small differences that act back, in rad/s.
     SmallRates,
-    /// Generalized torques from outside, one for each absolute angle, N m.
+    /// Actions of the in-phase modes, in J s.
+    Actions,
+    /// External generalized torques, one per absolute angle, in N m.
     Torques,
-    /// Generalized torques from outside on the differences that act back, N m.
+    /// External generalized torques on the small differences that act back, in N m.
     SmallTorques,
-    /// Accelerations of the prescribed links of the set with that number, rad/s².
+    /// Accelerations of the prescribed links in the set with this index, in rad/s².
     Prescribed(usize),
-    /// Angles or angular velocities, absolute: the transform serves both.
+    /// Absolute angles or angular velocities; both are converted to symmetric coordinates by the
+    /// same map.
     Absolute,
-    /// Angles or angular velocities, symmetric.
+    /// Symmetric coordinates or their velocities; both are converted to absolute ones by the same
+    /// map.
     Symmetric,
-    /// Constants of one link of a tree in loops.
+    /// Constants of one link of a tree in loops, for the equations of motion.
     Constants,
-    /// Constants of one link as a body, which energies and powers read.
+    /// Constants of one link of a tree in loops, for energies and powers.
     Body,
-    /// The link's motion: sine, cosine, angular velocity, joint angle, joint rate, torque from
-    /// outside.
+    /// Motion of one link: sine and cosine of the angle, angular velocity, joint angle, joint rate,
+    /// external torque.
     Motion,
-    /// Response of a subtree: deficit xx, xy, yy of the articulated inertia, bias
-    /// force, torque of its joint on the parent.
+    /// Response of a subtree to the acceleration of its pivot: components xx, xy, yy of the
+    /// difference between its mass and its articulated inertia, bias force, and torque of its joint
+    /// on the parent.
     Response,
     /// Sum of the responses of all subtrees on a link.
     Sums,
-    /// Kept of a link for the way down: gain and offset of its acceleration.
+    /// Gain and offset of a link's acceleration, stored for the downward pass.
     Elimination,
-    /// Handed down by a link: the apparent gravity at its children's pivot; with
-    /// several places that at its own, and the acceleration at distance 1.
+    /// Values that a link passes on in the downward pass: the apparent gravity at its children's
+    /// pivot. If children hang at several points, the apparent gravity at its own pivot, and the
+    /// acceleration at distance 1.
     Carried,
     /// Apparent gravity at a link's pivot.
     Pivot,
-    /// Numbers of these names, which a function of one link takes beside constants and motion.
+    /// Numbers with these names, which a function of one link takes in addition to constants and
+    /// motion.
     Given(&'static [&'static str]),
 }
 
-/// The shape in which an entry point returns its outputs.
+/// Type in which an entry point returns its outputs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ResultShape {
     /// One number.
     Scalar,
     /// An array.
     Vector,
-    /// So many arrays of the other length.
+    /// Number of arrays, and their length.
     Rows(usize, usize),
-    /// A `Transfer`: kinetic part, potential part.
+    /// A `Transfer`: kinetic and potential part.
     Transfer,
-    /// A number of `Transfer`s.
+    /// Array of this many `Transfer`s.
     Transfers(usize),
     /// Two arrays of these lengths.
     Arrays(usize, usize),
-    /// So many numbers (one alone is no array), and an array of the others.
+    /// This many numbers (a single one is not an array), and an array of the remaining outputs.
     Split(usize),
-    /// A `Budget` of that many sectors: energies, transfers, powers.
+    /// A `Budget` of this many sectors: energies, transfers, powers.
     Budget(usize),
 }
 
 impl Argument {
-    /// Name of the argument in emitted code.
+    /// Returns the name of the argument in emitted code.
     pub fn name(self) -> &'static str {
         match self {
             Self::Time => "time",
@@ -95,6 +103,7 @@ impl Argument {
             Self::Rates => "rates",
             Self::Forces => "forces",
             Self::Alpha => "alpha",
+            Self::Actions => "actions",
             Self::Difference(_) | Self::SmallDifferences => "difference",
             Self::DifferenceRate(_) | Self::SmallRates => "difference_rate",
             Self::Torques => "torques",

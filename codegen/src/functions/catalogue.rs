@@ -1,22 +1,24 @@
-//! All functions and methods that models may have.
+//! List of all functions and methods that a model may have.
 
 use super::{
-    CANONICAL, Cause, Counting, EnergyDefinition, EntryState, Naming, ObservableForm, PointKind,
-    Purpose,
+    CANONICAL, Cause, Counting, EnergyDefinition, EntryState, Naming, NormalFormFunction,
+    ObservableForm, PointKind, Purpose,
 };
 use std::ops::RangeInclusive;
 
-/// Orders that any truncated form has.
+/// Orders of the truncated forms.
 const ORDERS: RangeInclusive<u32> = 1..=8;
 
 impl Naming {
-    /// The functions that a tree which is written out may have.
+    /// Returns the purposes of all functions that a tree may have if its code is written out link
+    /// by link.
     pub fn purposes(&self) -> Vec<Purpose> {
         use Purpose as P;
         let is_of_loops = |purpose: &P| matches!(purpose, P::RootGravity | P::RootDrive);
         let mut all = P::singles();
         all.retain(|purpose| !is_of_loops(purpose));
         all.extend((0..self.prescribed.len()).map(P::Prescribed));
+        all.extend(NormalFormFunction::ALL.map(P::NormalForm));
         for kind in PointKind::ALL {
             all.extend([
                 P::Positions(kind),
@@ -63,8 +65,9 @@ impl Naming {
     }
 }
 
-/// Methods of models that are no functions of a program: those of traits, and what makes a
-/// model.
+/// Names of the models' methods that no purpose describes: methods of traits and constructors. The
+/// test `they_have_the_functions_and_traits_of_models` finds methods of traits that are missing
+/// here.
 #[rustfmt::skip]
 const OTHER_METHODS: &[&str] = &[
     "accelerations_into", "accelerations_under_into", "cast", "check_parameters", "children",
@@ -72,13 +75,15 @@ const OTHER_METHODS: &[&str] = &[
     "evaluate", "fmt", "from", "from_parameters_unchecked", "into", "kinetic_energy_of",
     "link_body", "link_name", "link_names", "links", "new", "on", "part", "point_torques",
     "point_torques_into", "point_velocities", "point_velocities_into", "points", "points_into",
-    "potential_energy_of", "prescribed_links", "properties_of", "small_accelerations_into",
+    "potential_energy_of", "prescribed_links", "properties_of", "sectors", "small_accelerations_into",
     "small_accelerations_under_into", "small_energy_of", "stands",
     "symmetric_accelerations_into", "symmetric_momenta_into", "taylor_coefficients_into",
-    "taylor_coefficients_of", "taylor_workspace", "transfers_into", "with_parameters",
+    "taylor_coefficients_of", "taylor_workspace", "transfers_into",
+    "transverse_accelerations_into", "transverse_energy_of", "transverse_friction_power_of",
+    "transverse_transfer_of", "with_parameters",
 ];
 
-/// Returns true if models may have a method of that name, asked for or not.
+/// Returns true if some model has a method with this name.
 pub fn is_method(name: &str) -> bool {
     let naming = Naming::any();
     let is_function = |purpose| {

@@ -1,25 +1,25 @@
-//! Forms in which functions come: by state, definition, point, cause and truncation.
+//! Variants of functions: by state, definition of the energy, kind of point, cause and truncation.
 
 use super::Argument;
 use crate::named_members::named_members;
 
-/// Form of the state that an entry point receives.
+/// Variables of the state that an entry point receives.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum EntryState {
     /// Absolute angles and angular velocities.
     Absolute,
     /// Symmetric coordinates and their velocities.
     Rates,
-    /// Symmetric coordinates and their momenta; where differences are small,
-    /// the momenta are or are not.
+    /// Symmetric coordinates and their momenta. `Counting` states whether the momenta count as
+    /// small too.
     Momenta(Counting),
 }
 
-/// Without a truncation nothing is counted.
+/// The canonical state; without truncation the counting has no effect.
 pub(crate) const CANONICAL: EntryState = EntryState::Momenta(Counting::Amplitude);
 
 impl EntryState {
-    /// The arguments that hold it.
+    /// Returns the two arguments that hold the state.
     pub fn arguments(self) -> [Argument; 2] {
         match self {
             Self::Absolute => [Argument::Theta, Argument::Omega],
@@ -28,7 +28,7 @@ impl EntryState {
         }
     }
 
-    /// Beginning of the names of functions of sectors.
+    /// Returns the first part of the names of functions of sectors.
     pub(super) fn prefix(self) -> &'static str {
         match self {
             Self::Absolute => "",
@@ -36,7 +36,8 @@ impl EntryState {
         }
     }
 
-    /// End of the names of functions of H_d and W, which are canonical by themselves.
+    /// Returns the last part of the names of functions of H_d (energy of a difference) and W
+    /// (transfer into it). It is empty for the canonical state.
     pub(super) fn source(self) -> &'static str {
         match self {
             Self::Momenta(_) => "",
@@ -46,22 +47,23 @@ impl EntryState {
 }
 
 named_members! {
-    /// Definition of the kinetic energy of a sector (physics §5).
+    /// Definition of the kinetic energy of a sector (physics §5); B is the sector's block of the
+    /// mass matrix.
     #[derive(Clone, Copy, Debug, PartialEq, Eq)]
     pub enum EnergyDefinition {
-        /// A0: ½ pᵀ B(0)⁻¹ p.
+        /// A0: ½ pᵀ B(0)⁻¹ p, with the block at rest.
         Rest = "rest",
-        /// A1: ½ pᵀ B(θ)⁻¹ p.
+        /// A1: ½ pᵀ B(θ)⁻¹ p, with the block at the current angles.
         Canonical = "canonical",
-        /// B: Parseval for the velocities.
+        /// B: from velocities, by Parseval's identity.
         Parseval = "parseval",
-        /// C: ½ ωᵀ B(θ) ω.
+        /// C: ½ ωᵀ B(θ) ω, from velocities, with the block at the current angles.
         Velocity = "velocity",
     }
 }
 
 named_members! {
-    /// A kind of points that all links have.
+    /// A kind of point that every link has.
     #[derive(Clone, Copy, Debug, PartialEq, Eq)]
     pub enum PointKind {
         /// The pivot.
@@ -74,29 +76,47 @@ named_members! {
 }
 
 named_members! {
+    /// Function of the resonant normal form of degree 4. The names are endings of function names.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub enum NormalFormFunction {
+        /// Actions of a release from rest.
+        Actions = "actions",
+        /// Frequencies of the in-phase modes and of a difference, from the actions.
+        Frequencies = "frequencies",
+        /// Coupling of a difference to the in-phase motion, from the actions.
+        Coupling = "coupling",
+        /// Square of the growth rate of a difference, from the actions.
+        Growth = "growth_rate_squared",
+        /// Squares of the factors that take a release to the thresholds of growth.
+        Thresholds = "thresholds",
+    }
+}
+
+named_members! {
     /// Cause of an energy transfer between copies that differ.
     #[derive(Clone, Copy, Debug, PartialEq, Eq)]
     pub enum Cause {
-        /// The tree of equal copies that have the means of all constants.
+        /// The mean tree: equal copies with the means of all constants.
         MeanTree = "growth",
-        /// Values in which the copies differ.
+        /// The deviations of the copies' constants from their means.
         Mismatch = "forcing",
     }
 }
 
 named_members! {
-    /// Quantities that count as small when W is truncated.
+    /// Quantities that count as small when the transfer W is truncated.
     #[derive(Clone, Copy, Debug, PartialEq, Eq)]
     pub enum Counting {
-        /// The difference angles; momenta stay whole (the paper's sense).
+        /// The difference angles alone, not their momenta (the paper's sense).
         Angle = "angle",
-        /// Difference angles and their momenta alike, as in an oscillation.
+        /// The difference angles and their momenta, as in an oscillation.
         Amplitude = "amplitude",
     }
 }
 
 impl Counting {
-    /// Order of W that a Poisson bracket gives; others come from the velocities' series.
+    /// Returns the order of W that is a single Poisson bracket; other orders are computed from the
+    /// series of the velocities.
     pub fn bracket_order(self) -> u32 {
         match self {
             Self::Angle => 1,
@@ -106,36 +126,36 @@ impl Counting {
 }
 
 named_members! {
-    /// Quantity that a function gives of an observable. Names are ends of the names of
-    /// functions.
+    /// Quantity that a function returns for an observable F. The names are endings of function
+    /// names.
     #[derive(Clone, Copy, Debug, PartialEq, Eq)]
     pub enum ObservableForm {
-        /// F from coordinates and velocities.
+        /// Value of the observable F, computed from coordinates and velocities.
         Value = "",
-        /// dF/dt from coordinates and velocities.
+        /// Rate of change dF/dt, computed from coordinates and velocities.
         Rate = "_rate",
-        /// The part of dF/dt that is friction and drag.
+        /// Part of dF/dt that friction and drag cause.
         FrictionRate = "_friction_rate",
-        /// F from coordinates and momenta.
+        /// Value of the observable F, computed from coordinates and momenta.
         FromMomenta = "_from_momenta",
-        /// dF/dt from coordinates and momenta.
+        /// Rate of change dF/dt, computed from coordinates and momenta.
         RateFromMomenta = "_rate_from_momenta",
     }
 }
 
 impl ObservableForm {
-    /// Returns true if it is a rate by all forces.
+    /// Returns true if the function returns the rate caused by all forces.
     pub fn is_rate(self) -> bool {
         matches!(self, Self::Rate | Self::RateFromMomenta)
     }
 
-    /// Returns true if momenta are handed over.
+    /// Returns true if the function takes momenta.
     pub fn is_from_momenta(self) -> bool {
         matches!(self, Self::FromMomenta | Self::RateFromMomenta)
     }
 }
 
-/// Meaning of the properties of a link, in the order in which a model hands them over.
+/// Meaning of the properties of a link, in the order in which a model returns them.
 pub const LINK_PROPERTIES: [&str; 8] = [
     "mass (kg)",
     "moment of inertia about the centre of mass (kg m²)",

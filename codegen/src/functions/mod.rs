@@ -1,5 +1,4 @@
-//! The functions that a model may have: their purposes, with name, arguments and result of
-//! each.
+//! Functions that a model may have: purpose, name, arguments and result of each.
 
 mod argument;
 mod catalogue;
@@ -12,8 +11,9 @@ pub use argument::{Argument, ResultShape};
 pub use catalogue::is_method;
 pub(crate) use forms::CANONICAL;
 pub use forms::{
-    Cause, Counting, EnergyDefinition, EntryState, LINK_PROPERTIES, ObservableForm, PointKind,
+    Cause, Counting, EnergyDefinition, EntryState, LINK_PROPERTIES, NormalFormFunction,
+    ObservableForm, PointKind,
 };
-pub use naming::{Naming, Signature};
+pub use naming::{Naming, Signature, SliceFunction};
 pub use of_link::{BodyFunction, LinkFunction, ScaleFunction};
 pub use purpose::Purpose;

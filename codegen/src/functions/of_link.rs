@@ -4,7 +4,7 @@ use super::Argument;
 use crate::named_members::named_members;
 
 named_members! {
-    /// The functions that the recursion calls for each link of a tree in loops.
+    /// Functions that the articulated recursion calls for each link of a tree in loops.
     #[derive(Clone, Copy, Debug, PartialEq, Eq)]
     pub enum LinkFunction {
         Leaf = "leaf":
@@ -23,7 +23,7 @@ named_members! {
 }
 
 impl LinkFunction {
-    /// Arguments beside constants and motion.
+    /// Returns the arguments of the function, except the constants and the motion of the link.
     pub(super) fn given(self) -> &'static [Argument] {
         match self {
             Self::Leaf => &[],
@@ -37,8 +37,9 @@ impl LinkFunction {
 }
 
 named_members! {
-    /// A function of energies by scale in a tree in loops: of the constants and the motion
-    /// of a link, and of the numbers that [`given`](Self::given) names.
+    /// Function of one link for energies by scale (by generation), in a tree whose code is loops.
+    /// The function takes the constants and the motion of the link, and the numbers that
+    /// [`given`](Self::given) names.
     #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
     pub enum ScaleFunction {
         Torques = "scale_torques":
@@ -63,7 +64,8 @@ named_members! {
 }
 
 impl ScaleFunction {
-    /// Names of the numbers that it takes beside constants and motion.
+    /// Returns the names of the numbers that the function takes in addition to constants and
+    /// motion.
     pub fn given(self) -> &'static [&'static str] {
         match self {
             Self::Torques => &[],
@@ -112,7 +114,7 @@ impl ScaleFunction {
         }
     }
 
-    /// Number of results.
+    /// Returns the number of results.
     pub fn results(self) -> usize {
         match self {
             Self::Torques | Self::Velocity | Self::Moment => 4,
@@ -125,8 +127,9 @@ impl ScaleFunction {
 }
 
 named_members! {
-    /// A function of energies, powers or positions in a tree in loops: of the constants of a
-    /// link as a body and of its motion, and of the numbers that [`given`](Self::given) names.
+    /// Function of one link for energies, powers or positions, in a tree whose code is loops. Its
+    /// arguments are the link's constants for energies, its motion, and the numbers named by
+    /// [`given`](Self::given).
     #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
     pub enum BodyFunction {
         PivotVelocity = "pivot_velocity":
@@ -151,7 +154,8 @@ named_members! {
 }
 
 impl BodyFunction {
-    /// Names of the numbers that it takes beside constants and motion.
+    /// Returns the names of the numbers that the function takes in addition to constants and
+    /// motion.
     pub fn given(self) -> &'static [&'static str] {
         match self {
             Self::PivotVelocity | Self::KineticEnergy => &["pivot_velocity_x", "pivot_velocity_y"],
@@ -162,15 +166,21 @@ impl BodyFunction {
         }
     }
 
-    /// Number of results.
+    /// Returns the number of results.
     pub fn results(self) -> usize {
         match self {
             Self::PivotVelocity | Self::Point | Self::PointVelocity => 2,
-            _ => 1,
+            Self::KineticEnergy
+            | Self::PotentialEnergy
+            | Self::FrictionLoss
+            | Self::DrivePower
+            | Self::OutsidePower
+            | Self::PointTorque => 1,
         }
     }
 
-    /// Returns true if it is about a point of a link, of whose constants it reads none.
+    /// Returns true if the function is about a point of a link; it then reads no constants of the
+    /// link.
     pub fn is_of_point(self) -> bool {
         matches!(self, Self::Point | Self::PointVelocity | Self::PointTorque)
     }

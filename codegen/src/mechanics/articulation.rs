@@ -1,5 +1,5 @@
-//! The tree's joints as the articulated recursion sees them (physics §10):
-//! the constants of each orbit, read off the positions.
+//! Joints of the tree for the articulated-body recursion (physics §10). The constants of each orbit
+//! (equal copies of one link) are derived from the positions.
 
 use super::algebra::Formula;
 use super::derivation::Derivation;
@@ -9,23 +9,24 @@ use super::lines::LineTorque;
 use super::link_pairs::PairElement;
 use crate::scene::{LinkId, PassiveTorques};
 
-/// Constants of the links of one orbit, zero where the scene has no such thing: expressions
-/// in named constants, parameters and numbers, or values of a program.
+/// Constants of the links of one orbit; those that do not occur in the scene are zero. They are
+/// expressions in named constants, parameters and numbers, or values of a program.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Joint<V = Expr> {
-    /// Diagonal entry M of the mass matrix.
+    /// Diagonal entry M of the mass matrix, in kg m².
     pub inertia: V,
-    /// First moment (h, e) of the mass that the link carries, about its pivot,
-    /// along and across.
+    /// First moment (h, e) of the mass that the link carries about the link's pivot, along and
+    /// across the link, in kg m.
     pub moment: [V; 2],
-    /// The link's pivot (ℓ, w) from its parent's, along and across.
+    /// Position (ℓ, w) of the link's pivot relative to its parent's pivot, along and across the
+    /// parent, in m.
     pub pivot: [V; 2],
     /// Friction and spring in the pivot, and drag against the ground.
     pub passive: PassiveTorques<V>,
 }
 
 impl<V> Joint<V> {
-    /// The joint with constants that are formed of its own.
+    /// Returns the joint with `formed` applied to every constant.
     pub fn map<W>(&self, mut formed: impl FnMut(&V) -> W) -> Joint<W> {
         Joint {
             inertia: formed(&self.inertia),
@@ -36,15 +37,14 @@ impl<V> Joint<V> {
     }
 }
 
-/// The quantities from which the articulated recursion is formed.
+/// Quantities that the articulated-body recursion uses.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Articulation {
-    /// Gravitational acceleration.
+    /// Gravitational acceleration, in m/s².
     pub gravity: Expr,
-    /// The joints of each orbit of the scene, in its order; one link stands for
-    /// all of its orbit.
+    /// Joints of each orbit, in the scene's order; one link represents its whole orbit.
     pub joints: Vec<Joint>,
-    /// Springs and friction between links that are not parent and child, two by two.
+    /// Springs and friction between two links that are not parent and child.
     pub pairs: Vec<PairElement>,
     /// Torques of straight springs and dampers.
     pub lines: Vec<LineTorque>,

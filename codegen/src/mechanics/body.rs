@@ -1,9 +1,9 @@
-//! Energies, powers and positions of one link in a tree: what the functions of trees in loops
-//! are formed of.
+//! Energies, powers and positions of one link, from which the functions of trees in loops are
+//! computed.
 //!
-//! Kinetic energy takes the velocity of the link's pivot, which the parent hands down. All else
-//! is a sum of terms of single links, since weight and inertial forces act on all that a link
-//! carries at a first moment that is a constant.
+//! The kinetic energy uses the velocity of the link's pivot, which the parent passes on. Every
+//! other quantity is a sum over single links, because weight and inertial forces act on the
+//! constant first moment of everything that a link carries.
 
 use super::algebra::Formula;
 use super::derivation::Derivation;
@@ -13,62 +13,63 @@ use super::laws::kinetic;
 use super::link::{LinkSymbols, Plane, dot, plus, times};
 use crate::functions::BodyFunction;
 
-/// Symbols of a link as a body beside those of its balance.
+/// Symbols of a link as a rigid body, in addition to those of its balance of force and torque.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BodySymbols {
-    /// Gravity g.
+    /// Gravitational acceleration g.
     pub gravity: SymbolId,
-    /// First moment of all that the link carries about its pivot, along and across.
+    /// First moment, about the link's pivot, of all that the link carries, along and across the
+    /// link.
     pub carried_moment: [SymbolId; 2],
-    /// Weight of that times its lever, along and across.
+    /// Weight of all that the link carries times its lever, along and across the link.
     pub weight_moment: [SymbolId; 2],
-    /// Velocity of the pivot.
+    /// Velocity of the link's pivot.
     pub pivot_velocity: [SymbolId; 2],
     /// Acceleration of the root's pivot.
     pub root_acceleration: [SymbolId; 2],
-    /// Torque of the drive, zero but on the root.
+    /// Torque of the drive; zero except on the root.
     pub root_torque: SymbolId,
-    /// Torque from outside.
+    /// External torque.
     pub outside_torque: SymbolId,
-    /// Place of a point along and across the link.
+    /// Position of a point along and across the link.
     pub point: [SymbolId; 2],
-    /// Force in that point.
+    /// Force at that point.
     pub force: [SymbolId; 2],
 }
 
 /// Energies, powers and positions of one link.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LinkBody {
-    /// Symbols of the link.
+    /// Symbols of the link as a rigid body.
     pub symbols: BodySymbols,
-    /// The functions that the scene asks for.
+    /// Requested functions.
     pub functions: Vec<BodyFunction>,
-    /// Velocities of the centre of mass and of the children's pivot.
+    /// Velocities of the centre of mass and of the pivot of the children, two components each.
     pub velocity: [Expr; 4],
     /// Kinetic energy.
     pub kinetic_energy: Expr,
-    /// Weight of what the link carries times its lever, along and across.
+    /// Weight of all that the link carries times its lever, along and across the link.
     pub weight_moment: [Expr; 2],
     /// Potential energy of that weight and of the spring.
     pub potential_energy: Expr,
-    /// Power that friction and drag take.
+    /// Power dissipated by friction and drag.
     pub friction_loss: Expr,
-    /// Torque of the inertial forces of a moving pivot.
+    /// Torque of the inertial forces caused by a moving pivot.
     pub inertial: Expr,
     /// Power of the drive.
     pub drive_power: Expr,
-    /// Power of the torque from outside.
+    /// Power of the external torque.
     pub outside_power: Expr,
-    /// A point, from the link's pivot.
+    /// Position of a point, relative to the link's pivot.
     pub point: [Expr; 2],
-    /// Velocity of the point against that pivot.
+    /// Velocity of that point relative to the pivot.
     pub point_velocity: [Expr; 2],
-    /// Torque of a force there about that pivot.
+    /// Torque about the pivot of a force at that point.
     pub point_torque: Expr,
 }
 
 impl LinkBody {
-    /// Results of a function.
+    /// Returns the results of a function.
     pub fn results(&self, function: BodyFunction) -> &[Expr] {
         let one = std::slice::from_ref;
         match function {
@@ -84,7 +85,7 @@ impl LinkBody {
         }
     }
 
-    /// The formulas behind a function.
+    /// Returns the formulas from which a function is computed.
     pub fn formulas(&self, symbols: &Symbols, function: BodyFunction) -> Vec<NamedFormula> {
         let names: &[(&str, &str)] = match function {
             BodyFunction::PivotVelocity => &[("P'_x", "P'_x"), ("P'_y", "P'_y")],
@@ -141,8 +142,8 @@ impl BodySymbols {
 }
 
 impl Derivation<'_> {
-    /// A place on a link, along it and across.
-    pub(super) fn place_on_link(&self, [along, across]: [SymbolId; 2]) -> Plane {
+    /// Returns a point of a link, given along and across it, as a vector in the link's frame.
+    pub(super) fn point_on_link(&self, [along, across]: [SymbolId; 2]) -> Plane {
         let across = match self.scene.is_lateral() {
             true => Formula::symbol(across),
             false => Formula::zero(),
@@ -150,17 +151,17 @@ impl Derivation<'_> {
         [Formula::symbol(along), across]
     }
 
-    /// ∂/∂θ of a vector.
-    pub(super) fn turned(&self, s: &LinkSymbols, vector: &Plane) -> Plane {
+    /// Returns the derivative ∂/∂θ of a vector by the link's angle.
+    pub(super) fn angle_derivative(&self, s: &LinkSymbols, vector: &Plane) -> Plane {
         vector
             .each_ref()
             .map(|component| self.partial(component, s.angle))
     }
 
-    /// ∂r/∂θ of a point of the link.
+    /// Returns the lever ∂r/∂θ of a point of the link.
     pub(super) fn link_lever(&self, s: &LinkSymbols, [along, lateral]: Plane) -> Plane {
         let position = self.point_at(&along, &lateral, s.angle);
-        self.turned(s, &position)
+        self.angle_derivative(s, &position)
     }
 
     /// Derives energies, powers and positions of a link.
@@ -170,22 +171,22 @@ impl Derivation<'_> {
         let pair = |ids: [SymbolId; 2]| ids.map(symbol);
         let (omega, [mass, inertia]) = (symbol(link.omega), pair(link.body));
 
-        // Velocities of points are those of the pivot and ω times their levers.
+        // Velocity of a point = velocity of the pivot + ω times the point's lever.
         let pivot = pair(s.pivot_velocity);
         let [velocity, child_velocity] = [link.com, link.place].map(|ids| {
-            let lever = self.link_lever(link, self.place_on_link(ids));
+            let lever = self.link_lever(link, self.point_on_link(ids));
             plus(&pivot, &times(&omega, &lever))
         });
         let kinetic = kinetic([&mass, &inertia], &velocity, &omega);
 
-        // All that the link carries rises as its first moment does, which stands at
-        // (1 − cos θ, sin θ) above its place at θ = 0: kept so, it keeps its digits.
-        let carried = self.place_on_link(s.carried_moment);
+        // Height of all that the link carries above its position at θ = 0: its first moment times
+        // (1 − cos θ, sin θ). This form does not lose digits at small θ.
+        let carried = self.point_on_link(s.carried_moment);
         let gravity = symbol(s.gravity);
         let weight_moment = carried.each_ref().map(|moment| &gravity * moment);
         let [cosine, sine] = pair(link.direction);
         let raised = [&Formula::integer(1) - &cosine, sine];
-        let potential = &dot(&self.place_on_link(s.weight_moment), &raised) + &forces.stored;
+        let potential = &dot(&self.point_on_link(s.weight_moment), &raised) + &forces.stored;
 
         let lever = self.link_lever(link, carried);
         let inertial = -dot(&pair(s.root_acceleration), &lever);
@@ -194,7 +195,7 @@ impl Derivation<'_> {
 
         let [along, across] = pair(s.point);
         let point = self.point_at(&along, &across, link.angle);
-        let point_lever = self.turned(link, &point);
+        let point_lever = self.angle_derivative(link, &point);
         let point_torque = dot(&point_lever, &pair(s.force));
         let point_velocity = times(&omega, &point_lever);
 
@@ -225,11 +226,15 @@ impl Derivation<'_> {
         let mut links = scene.links.iter();
         let brakes = links.any(|link| link.passive.has_friction() || link.passive.has_drag());
         let is_wanted = |function: &BodyFunction| match function {
-            function if function.is_of_point() => requests.positions,
+            BodyFunction::Point | BodyFunction::PointVelocity | BodyFunction::PointTorque => {
+                requests.positions
+            }
             BodyFunction::FrictionLoss => requests.energies && brakes,
             BodyFunction::DrivePower => requests.energies && scene.drive.is_some(),
             BodyFunction::OutsidePower => requests.energies && requests.forces,
-            _ => requests.energies,
+            BodyFunction::PivotVelocity
+            | BodyFunction::KineticEnergy
+            | BodyFunction::PotentialEnergy => requests.energies,
         };
         BodyFunction::ALL.into_iter().filter(is_wanted).collect()
     }

@@ -5,11 +5,11 @@ use super::derivation::Derivation;
 use super::expression::{Role, SymbolId};
 
 impl Derivation<'_> {
-    /// {F, G} = Σ_i ∂F/∂q_i ∂G/∂p_i − ∂F/∂p_i ∂G/∂q_i.
+    /// Computes the Poisson bracket {F, G} = Σ_i ∂F/∂q_i ∂G/∂p_i − ∂F/∂p_i ∂G/∂q_i.
     ///
-    /// `pairs` are the canonical pairs (q_i, p_i) that F depends on; the sum
-    /// over all others vanishes. G may hold derived symbols (in-phase
-    /// velocities): they depend on pairs outside this sum only.
+    /// `pairs` are the canonical pairs (q_i, p_i) that F depends on; all other terms vanish. G may
+    /// contain derived symbols (in-phase velocities), because they depend only on pairs outside
+    /// this sum.
     pub(super) fn poisson_bracket(
         &self,
         pairs: &[(SymbolId, SymbolId)],

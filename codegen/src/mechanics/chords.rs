@@ -1,7 +1,9 @@
-//! Straight springs between copies in symmetric coordinates (physics (19.10)).
+//! Straight springs between copies, in symmetric coordinates (physics (19.10)).
 //!
-//! In absolute angles they are lines. In symmetric ones their energy is ½ Γ |[e^{iθ}]_s|² in each
-//! sector s of the copies' differences: Γ = k κ r² of k copies stands beside gravity's G there.
+//! In absolute angles these springs are treated as lines. In symmetric coordinates their energy is
+//! ½ Γ |[e^{iθ}]_s|² in each sector s (a set of symmetric coordinates: all means, or one difference
+//! between copies) of the copies' differences, where [·]_s is the part in that sector. For k copies
+//! Γ = k κ r², which adds to gravity's constant G.
 
 use super::algebra::Formula;
 use super::derivation::Derivation;
@@ -13,8 +15,9 @@ use super::symmetric::Rotation;
 use crate::scene::{Coordinate, CoordinateKind, DescribedChordSpring, LinkId};
 
 impl Derivation<'_> {
-    /// What gravity and the springs have in the sector of a coordinate: one symbol Λ for G + Γ, with
-    /// which the energy transfer is as long as without springs, and the sum. G where no springs are.
+    /// Returns the restoring constant in the sector of a coordinate, in two forms: one symbol Λ for
+    /// gravity's G plus the springs' Γ, which keeps the energy transfer as short as without
+    /// springs, and the sum G + Γ. Without springs both are G.
     pub(super) fn restoring(&mut self, coordinate: &Coordinate, gravity: Formula) -> [Formula; 2] {
         let Some(own) = self.chord(coordinate) else {
             return [gravity.clone(), gravity];
@@ -37,12 +40,12 @@ impl Derivation<'_> {
         ]
     }
 
-    /// The springs in the sector of a coordinate, if any are between its links.
+    /// Returns the springs in the sector of a coordinate, if they connect the coordinate's links.
     fn chord(&self, coordinate: &Coordinate) -> Option<DescribedChordSpring> {
         let CoordinateKind::Difference { group, .. } = coordinate.kind else {
             return None;
         };
-        // Links below the copies have coordinates in the same sector.
+        // Coordinates of links below the copies belong to the same sector.
         let copies = &self.scene.groups[group].copies;
         let mut links = coordinate.weights.iter();
         let are_copies = links.all(|(link, _)| copies.contains(link));
@@ -62,7 +65,7 @@ impl Derivation<'_> {
         self.lettered(letters::CHORD, &[&group.name], &meaning, value)
     }
 
-    /// The energy of all such springs in the symmetric coordinates of a frame.
+    /// Returns the energy of all these springs in the symmetric coordinates of a frame.
     pub(super) fn chord_energy(
         &mut self,
         frame: &DerivedFrame,
@@ -76,9 +79,9 @@ impl Derivation<'_> {
         energy.sum()
     }
 
-    /// ½ Σ |[e^{iθ}]_s|² over the differences of a group of k copies, with the angles φ by which
-    /// these are beyond their mean: Σ vers φ − ((Σ vers φ)² + (Σ sin φ)²)/(2 k), and sin² φ of a pair.
-    /// Each term vanishes with the differences.
+    /// Returns ½ Σ |[e^{iθ}]_s|² over the differences s of a group of k copies. φ are the angles of
+    /// the copies minus their mean. The result is Σ vers φ − ((Σ vers φ)² + (Σ sin φ)²)/(2 k), or
+    /// sin² φ for two copies, with vers φ = 1 − cos φ. Each term vanishes with the differences.
     fn half_squares(
         &mut self,
         frame: &DerivedFrame,
@@ -112,7 +115,7 @@ impl Derivation<'_> {
         &versine - &(&squares / &twice)
     }
 
-    /// Γ of each group as plain data.
+    /// Returns the springs' constant Γ of each group of copies as plain data.
     pub(super) fn orbit_chords(&mut self) -> Vec<OrbitChord> {
         let chords = self.chords.clone();
         let plain = chords.iter().map(|own| {

@@ -1,5 +1,4 @@
-//! The state of one derivation inside the algebra: symbols, their meaning and
-//! the chain rule.
+//! State of one derivation: symbols, their definitions and the chain rule.
 
 use super::algebra::Formula;
 use super::expression::{Role, SymbolId, Symbols};
@@ -11,31 +10,31 @@ use super::print::{Index, latex_name};
 use crate::scene::{DescribedChordSpring, Scene};
 use std::collections::BTreeMap;
 
-/// Index of an [`AngleCombination`] in its table.
+/// Index of an [`AngleCombination`] in the list of all combinations.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct CombinationId(pub usize);
 
-/// A sum of coordinates with integer weights, the first one positive.
+/// A sum of coordinates with integer weights; the first weight is positive.
 pub type AngleCombination = Vec<(SymbolId, i64)>;
 
-/// Meaning of a trigonometric symbol.
+/// Definition of a symbol that abbreviates a sine or a cosine.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Trigonometric {
-    /// cos of a coordinate.
+    /// Cosine of a coordinate.
     Cos(SymbolId),
-    /// sin of a coordinate.
+    /// Sine of a coordinate.
     Sin(SymbolId),
-    /// 1 − cos of a combination of differences, accurate where that is small.
+    /// 1 − cos of a combination of differences, which is accurate for small arguments.
     VersineOf(CombinationId),
-    /// sin of a combination of differences.
+    /// Sine of a combination of differences.
     SineOf(CombinationId),
-    /// cos of the difference of two coordinates.
+    /// Cosine of the difference of two coordinates.
     CosBetween(SymbolId, SymbolId),
-    /// sin of the difference of two coordinates.
+    /// Sine of the difference of two coordinates.
     SinBetween(SymbolId, SymbolId),
 }
 
-/// A constant while it is derived.
+/// A constant of the model during the derivation.
 pub(super) struct ConstantEntry {
     pub(super) value: Formula,
     pub(super) meaning: String,
@@ -55,19 +54,21 @@ pub(super) struct Derivation<'s> {
     pub(super) combinations: Vec<AngleCombination>,
     pub(super) drive: DerivedDrive,
     pub(super) joints: BTreeMap<SymbolId, JointDifference<Formula>>,
-    /// Differences of links that are not parent and child, pair by pair.
+    /// Relative angles and rates of pairs of links that are not parent and child, by the index of
+    /// the pair.
     pub(super) pairs: Vec<PairDifferences>,
     pub(super) lines: DerivedLines,
-    /// Straight springs between copies; none where other lines are, which have no part in
-    /// symmetric coordinates.
+    /// Straight springs between copies, for symmetric coordinates. Empty if the scene has other
+    /// lines, which symmetric coordinates do not support.
     pub(super) chords: Vec<DescribedChordSpring>,
     pub(super) groups_of: BTreeMap<SymbolId, usize>,
     of_combination: Vec<(SymbolId, SymbolId)>,
-    /// Functions of whole expressions, which observables alone have.
+    /// Functions of whole expressions, which occur in observables only.
     pub(super) composites: BTreeMap<SymbolId, CompositeObservable>,
-    /// K and U of a frame of which symbols alone are derived.
+    /// Symbols of K and U, if only the symbols of the frame are derived.
     pub(super) energies: Option<EnergySymbols>,
-    /// Derivatives in other symbols than those that the meaning has: function, variable, slope.
+    /// Derivatives that are expressed by other symbols than the function's definition, by function
+    /// and variable.
     pub(super) given_slopes: BTreeMap<(SymbolId, SymbolId), Formula>,
 }
 
@@ -134,7 +135,8 @@ impl<'s> Derivation<'s> {
         self.indexed_by(role, [code, text, latex], &[name])
     }
 
-    /// A symbol with names for indices: its letter in code, in text and in LaTeX.
+    /// Creates a symbol with names as indices. The three letters are its spellings in code, in text
+    /// and in LaTeX.
     pub(super) fn indexed_by(
         &mut self,
         role: Role,
@@ -154,7 +156,7 @@ impl<'s> Derivation<'s> {
         )
     }
 
-    /// The generalized coordinate of that name, with its cosine and sine.
+    /// Creates the generalized coordinate with this name, and its cosine and sine.
     pub(super) fn coordinate(&mut self, name: &str) -> SymbolId {
         let id = self.indexed(Role::Coordinate, "theta", "θ", "\\theta", name);
         self.names.insert(id, name.to_owned());
@@ -191,8 +193,8 @@ impl<'s> Derivation<'s> {
         self.of_one[&coordinate].1
     }
 
-    /// 1 − cos and sin of a combination as symbols of their own: expanded in
-    /// those of single coordinates, nested differences would fill pages.
+    /// Creates symbols for 1 − cos and sin of a combination. Expanded in sines and cosines of
+    /// single coordinates, nested differences would fill pages.
     pub(super) fn combination(&mut self, combination: &AngleCombination) -> (SymbolId, SymbolId) {
         if let Some(known) = self.combinations.iter().position(|c| c == combination) {
             return self.of_combination[known];
@@ -228,7 +230,7 @@ impl<'s> Derivation<'s> {
                 &format!("{function}{text}"),
                 &format!("{command}{latex}"),
             );
-            // The sine of a single coordinate is there already.
+            // The sine of a single coordinate exists already.
             self.trigonometry.entry(symbol).or_insert(meaning);
             symbol
         };
@@ -239,9 +241,8 @@ impl<'s> Derivation<'s> {
         (versine, sine)
     }
 
-    /// cos(a − b) and sin(a − b) as symbols of their own: the mass matrix
-    /// depends on differences alone, and written in them it stays as short as
-    /// on paper.
+    /// Creates symbols for cos(a − b) and sin(a − b). The mass matrix depends only on such
+    /// differences, and written in them it is as short as by hand.
     pub(super) fn between(&mut self, a: SymbolId, b: SymbolId) -> (SymbolId, SymbolId) {
         if let Some(&known) = self.of_two.get(&(a, b)) {
             return known;
@@ -268,13 +269,13 @@ impl<'s> Derivation<'s> {
         (cos, sin)
     }
 
-    /// cos and sin of θ_a − θ_b where they are in use already.
+    /// Returns the existing symbols for cos and sin of θ_a − θ_b.
     pub(super) fn known_between(&self, a: SymbolId, b: SymbolId) -> (SymbolId, SymbolId) {
         self.of_two[&(a, b)]
     }
 
-    /// ∂/∂(coordinate or velocity) of a symbol that stands for a function, if it depends
-    /// on it.
+    /// Returns the derivative of a symbol by a coordinate or velocity; `None` if the symbol does
+    /// not depend on it.
     pub(super) fn slope(&self, symbol: SymbolId, coordinate: SymbolId) -> Option<Formula> {
         if let Some(slope) = self.given_slopes.get(&(symbol, coordinate)) {
             return Some(slope.clone());
@@ -285,7 +286,7 @@ impl<'s> Derivation<'s> {
         if let Some(line) = self.lines.symbols.get(&symbol) {
             return match &line.meaning {
                 LineMeaning::Formula(formula) => Some(self.partial(formula, coordinate)),
-                // Slopes of lengths are given.
+                // Derivatives of lengths are in `given_slopes`.
                 LineMeaning::Root { .. } => None,
             };
         }
@@ -325,8 +326,8 @@ impl<'s> Derivation<'s> {
         found.map(|(_, weight)| *weight)
     }
 
-    /// cos of a coordinate as it is written in this derivation: 1 − vers where
-    /// that is in use.
+    /// Returns the cosine of a coordinate, expressed by the symbols of this derivation: 1 − vers if
+    /// the versine is in use.
     pub(super) fn cosine(&self, coordinate: SymbolId) -> Formula {
         let alone = vec![(coordinate, 1)];
         match self.combinations.iter().position(|c| *c == alone) {
@@ -338,8 +339,8 @@ impl<'s> Derivation<'s> {
         }
     }
 
-    /// Partial derivative with respect to a coordinate or a velocity, through every sine and
-    /// cosine, and through angles and rates of joints that depend on it.
+    /// Returns the partial derivative with respect to a coordinate or a velocity. The chain rule
+    /// covers all sines and cosines, and relative angles and rates of joints.
     pub(super) fn partial(&self, formula: &Formula, coordinate: SymbolId) -> Formula {
         let mut terms = vec![];
         for symbol in formula.symbols() {
@@ -352,7 +353,7 @@ impl<'s> Derivation<'s> {
         terms.into_iter().sum()
     }
 
-    /// The coordinates that a formula depends on.
+    /// Returns the coordinates that a formula depends on.
     pub(super) fn coordinates_of(&self, formula: &Formula) -> Vec<SymbolId> {
         let mut found = Vec::new();
         for symbol in formula.symbols() {

@@ -1,5 +1,5 @@
-//! Equations of small differences between copies: those along a motion in phase, and those
-//! that act back on it.
+//! Equations of small differences between identical copies: differences that only follow an
+//! in-phase motion, and differences that also act back on it.
 
 use super::MatrixEntry;
 use super::algebra::Formula;
@@ -10,51 +10,52 @@ use crate::scene::TransverseCopies;
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-/// The equations of one sector: M δ̈ + residual = 0.
+/// Equations of one sector (the small differences between copies in phase): M δ̈ + residual = 0.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TransverseFormulas {
-    /// Links of the sector.
+    /// Copies and links of the sector.
     pub sector: TransverseCopies,
-    /// Differences of its links.
+    /// Differences δ of the sector's links, in rad.
     pub differences: Vec<SymbolId>,
-    /// Their rates.
+    /// Rates δ̇ of the differences, in rad/s.
     pub rates: Vec<SymbolId>,
-    /// The sector's block of the mass matrix, lower triangle; of one holder's copies.
+    /// Mass matrix M of the sector, lower triangle. It counts the copies of a single holder (a link
+    /// that holds such copies).
     pub mass: Vec<MatrixEntry>,
-    /// Terms linear in the differences and their rates, friction and drag included.
+    /// Terms linear in the differences and their rates, including friction and drag.
     pub residual: Vec<Expr>,
-    /// Energy of the differences in one holder's copies.
+    /// Energy of the differences between the copies of a single holder.
     pub energy: Expr,
-    /// Rate of the energy without friction and drag.
+    /// Rate of change of that energy without friction and drag.
     pub transfer: Expr,
-    /// The power of friction and drag on it; zero without both.
+    /// Power of friction and drag on that energy; zero without both.
     pub friction: Expr,
-    /// True if that power depends on the in-phase motion, as it does where friction is not
-    /// viscous.
+    /// True if that power depends on the in-phase motion, as it does if friction is not viscous.
     pub braked: bool,
 }
 
-/// All sectors, with the accelerations of the in-phase motion that drive them.
+/// Small differences of all sectors, and the accelerations of the in-phase motion on which their
+/// equations depend.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TransverseMechanics {
-    /// Accelerations of the scene's links.
+    /// Accelerations of the scene's links, in rad/s².
     pub accelerations: Vec<SymbolId>,
-    /// The sectors.
+    /// Equations of each sector.
     pub sectors: Vec<TransverseFormulas>,
-    /// Small differences that act back, if any are asked for.
+    /// Small differences that act back on the in-phase motion, if requested.
     pub small: Option<SmallMechanics>,
 }
 
-/// Symbols of the small motion of all links beside the in-phase one.
+/// Symbols of small deviations of all links from the in-phase motion.
 pub(super) struct SmallMotion {
     pub(super) accelerations: Vec<SymbolId>,
     pub(super) differences: Vec<SymbolId>,
     pub(super) rates: Vec<SymbolId>,
-    /// Angles and rates of joints by their symbols: the link, and by how much they change
-    /// where the parent does not change and where it does.
+    /// Relative angles and rates of joints, by their symbols: the link, and the deviation of the
+    /// relative value if the parent does not deviate and if it does.
     pub(super) joints: BTreeMap<SymbolId, (usize, [Formula; 2])>,
-    /// Differences of copies from their mean, zero in phase, by their symbols: the link that
-    /// stands for the copies, and the change.
+    /// Differences of copies from their mean, which are zero in phase, by their symbols: the link
+    /// that represents the copies, and the deviation.
     pub(super) copies: BTreeMap<SymbolId, (usize, Formula)>,
 }
 
@@ -67,7 +68,7 @@ impl SmallMotion {
         Formula::symbol(self.rates[link])
     }
 
-    /// A formula of the motion in phase.
+    /// Returns the formula for the in-phase motion, in which all differences are zero.
     pub(super) fn in_phase(&self, formula: &Formula) -> Formula {
         let zeros = self
             .copies
@@ -77,8 +78,9 @@ impl SmallMotion {
         formula.substitute(&zeros)
     }
 
-    /// By how much an angle or a rate, of a link or of a joint, changes where these links move;
-    /// none where the symbol is no such thing.
+    /// Returns the deviation of the angle or rate `symbol` (of a link or a joint) from the in-phase
+    /// motion, if only the links in `block` deviate. Returns `None` if the symbol is neither an
+    /// angle nor a rate.
     pub(super) fn change(
         &self,
         derivation: &Derivation<'_>,
@@ -96,7 +98,7 @@ impl SmallMotion {
             });
         }
         if let Some((link, change)) = self.copies.get(&symbol) {
-            // Only between these copies themselves there is a difference.
+            // Only these copies differ from each other.
             return Some(match block.start == *link {
                 true => change.clone(),
                 false => Formula::zero(),
@@ -122,37 +124,38 @@ impl SmallMotion {
     }
 }
 
-/// Terms that the differences of one sector add to the equations of the in-phase motion, and
-/// what couples the two: with the sector's own masses M_δ,
+/// Terms that the differences δ of one sector add to the in-phase equations, and the coupling of
+/// the two. With the sector's own mass matrix M_δ:
 /// (M + `mass`) θ̈ + `coupling`ᵀ δ̈ + b + `bias` = 0 and
 /// `coupling` θ̈ + M_δ δ̈ + `difference_bias` = 0.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SmallFormulas {
-    /// Number of the transverse sector.
+    /// Index of the transverse sector.
     pub sector: usize,
-    /// Second order of the mass matrix of all links, lower triangle.
+    /// Second-order part of the mass matrix of all links, lower triangle.
     pub mass: Vec<MatrixEntry>,
-    /// First order of the rows of the mass matrix that are the sector's.
+    /// First-order part of the sector's rows of the mass matrix.
     pub coupling: Vec<MatrixEntry>,
-    /// Second order of the other terms, for all links.
+    /// Second-order part of all terms without accelerations, one per link.
     pub bias: Vec<Expr>,
-    /// First order of the other terms of the sector's links.
+    /// First-order part of all terms without accelerations, one per link of the sector.
     pub difference_bias: Vec<Expr>,
-    /// Second order of the energy.
+    /// Second-order part of the energy.
     pub energy: Expr,
 }
 
-/// Differences of the named sectors, as they act back.
+/// Formulas for small differences between copies that act back on the in-phase motion.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SmallMechanics {
     /// Energy of the motion without differences.
     pub energy: Expr,
-    /// The sectors, in the order of the differences in the state.
+    /// Terms of each sector, in the order of the differences in the state.
     pub sectors: Vec<SmallFormulas>,
 }
 
 impl TransverseMechanics {
-    /// The symbol with that number of the differences that act back, or of their rates.
+    /// Returns the symbol of a small difference that acts back on the in-phase motion, or of its
+    /// rate. `index` is its index in the state.
     pub fn small_symbol(
         &self,
         index: usize,
@@ -165,8 +168,8 @@ impl TransverseMechanics {
 }
 
 impl SmallMechanics {
-    /// Place of the differences of each sector among those of all, in their order, and
-    /// behind them the number of all.
+    /// Returns the index of the first difference of each sector in the state, followed by the
+    /// number of all differences.
     pub fn offsets(&self, transverse: &TransverseMechanics) -> Vec<usize> {
         let mut offsets = vec![0];
         for formulas in &self.sectors {

@@ -1,10 +1,9 @@
-//! The drive (physics §7): a torque on the root and a motion of its pivot, as
-//! functions of time.
+//! The drive (physics §7): a torque on the root and a motion of its pivot, as functions of time.
 //!
-//! The frame of reference moves with the pivot. There the pivot's acceleration
-//! a acts on every link as the inertial force −m a in its centre of mass, so
-//! that kinetic energy, potential energy and momenta are those of a tree on a
-//! fixed pivot, and the drive is a set of generalized forces Q_i(t, θ).
+//! The frame of reference moves with the pivot. In it the pivot's acceleration a acts on every link
+//! as the inertial force −m a at its centre of mass. Kinetic energy, potential energy and momenta
+//! are therefore those of a tree on a fixed pivot, and the drive is a set of generalized forces
+//! Q_i(t, θ).
 
 use super::algebra::Formula;
 use super::derivation::Derivation;
@@ -20,33 +19,31 @@ use std::convert::Infallible;
 /// One component of the motion of the root's pivot.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PivotMotion {
-    /// `x` or `y`.
+    /// Name of the axis: `x` or `y`.
     pub name: &'static str,
-    /// Position, m.
+    /// Position of the root's pivot on this axis, in m.
     pub position: Expr,
-    /// Acceleration, m/s²; `None` where it is zero at all times.
+    /// Acceleration, in m/s²; `None` if it is zero at all times.
     pub acceleration: Option<SymbolId>,
-    /// The same in the directions of the equations.
+    /// Acceleration in the axes of the equations, in m/s².
     pub inner_acceleration: Expr,
 }
 
-/// The torque and the forces that act on the tree from outside.
+/// External torque and forces on the tree.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DriveTerms {
-    /// Meaning of the symbols that depend on time alone, each in terms of
-    /// earlier ones.
+    /// Definitions of the symbols that depend only on time; each uses only earlier ones.
     pub temporal: BTreeMap<SymbolId, Temporal>,
-    /// Torque on the root, N m.
+    /// Torque on the root, in N m.
     pub torque: Option<SymbolId>,
-    /// Components of the motion of the root's pivot that are given.
+    /// Components of the root's pivot motion that the scene prescribes.
     pub pivot: Vec<PivotMotion>,
-    /// Power Σ Q_i ω_i of the drive, in absolute angles, if energies are asked
-    /// for.
+    /// Power Σ Q_i ω_i of the drive, in absolute angles, if energies are requested.
     pub power: Option<Expr>,
 }
 
 impl DriveTerms {
-    /// The symbol of time, if anything depends on it.
+    /// Returns the symbol of time, if anything depends on it.
     pub fn time(&self) -> Option<SymbolId> {
         let mut symbols = self.temporal.iter();
         symbols.find_map(|(&symbol, meaning)| (*meaning == Temporal::Time).then_some(symbol))
@@ -54,10 +51,9 @@ impl DriveTerms {
 }
 
 impl Derivation<'_> {
-    /// W(t, θ), of which the generalized forces of the drive are the gradient
-    /// at fixed time: W = τ θ_root − a_x X − a_y Y, where (X, Y) is the first
-    /// moment of mass Σ m_l r_l above its value where all angles are zero, so
-    /// that Q_i = τ ∂θ_root/∂θ_i − Σ_l m_l a·∂r_l/∂θ_i.
+    /// Returns the work function W(t, θ), whose gradient at fixed time is the generalized forces of
+    /// the drive: W = τ θ_root − a_x X − a_y Y. Here (X, Y) is the first moment of mass Σ m_l r_l
+    /// minus its value at zero angles, so that Q_i = τ ∂θ_root/∂θ_i − Σ_l m_l a·∂r_l/∂θ_i.
     pub(super) fn drive_work(&mut self, angles: &[SymbolId]) -> Formula {
         let (torque, [x, y]) = self.drive_signals();
         let mut work = Vec::new();
@@ -78,8 +74,8 @@ impl Derivation<'_> {
         work.into_iter().sum()
     }
 
-    /// Torque on the root and acceleration of its pivot in the directions of the equations,
-    /// as symbols; zero where there are none.
+    /// Returns the torque on the root and the acceleration of its pivot, in the axes of the
+    /// equations, as symbols; absent ones are zero.
     pub(super) fn drive_signals(&mut self) -> (Formula, [Formula; 2]) {
         let mut accelerations = [Formula::zero(), Formula::zero()];
         let Some(scene) = self.scene.drive.as_ref() else {
@@ -121,8 +117,8 @@ impl Derivation<'_> {
         )
     }
 
-    /// First moments of the mass that each link carries, about its pivot, along
-    /// the link and across it.
+    /// Returns the first moment of the mass that each link carries about the link's pivot, along
+    /// and across the link.
     fn mass_moments(&mut self, angles: &[SymbolId]) -> Vec<(Formula, Formula)> {
         let total = self.heights(angles, |derivation, link| derivation.quantity(&link.mass));
         let mut moments = Vec::new();
@@ -140,7 +136,7 @@ impl Derivation<'_> {
         moments
     }
 
-    /// A function of time with a name; none where it is zero.
+    /// Defines a named function of time; returns `None` if it is zero.
     fn given(&mut self, code: &str, text: &str, latex: &str, value: Formula) -> Option<SymbolId> {
         if value.is_zero() {
             return None;
@@ -150,7 +146,7 @@ impl Derivation<'_> {
         Some(symbol)
     }
 
-    /// A function of time as a formula in t, sines and cosines.
+    /// Converts a function of time to a formula in t, sines and cosines.
     fn signal(&mut self, signal: &Signal) -> Formula {
         let mut atom = |atom: &SignalAtom| match atom {
             SignalAtom::Constant(value) => self.quantity(value),
@@ -177,7 +173,7 @@ impl Derivation<'_> {
         time
     }
 
-    /// Sine and cosine of a function of time: each is the other's slope.
+    /// Creates symbols for sine and cosine of a function of time.
     fn rotation_in_time(&mut self, argument: &Formula) -> (SymbolId, SymbolId) {
         let known = self.drive.rotations.iter().find(|(a, ..)| a == argument);
         if let Some(&(_, sin, cos)) = known {
@@ -202,7 +198,8 @@ impl Derivation<'_> {
         (sin, cos)
     }
 
-    /// d/dt of a function of time, through every sine and cosine in it.
+    /// Returns the derivative d/dt of a function of time. The chain rule covers all sines and
+    /// cosines in it.
     fn time_derivative(&self, formula: &Formula) -> Formula {
         formula
             .symbols()
@@ -225,7 +222,8 @@ impl Derivation<'_> {
             .sum()
     }
 
-    /// The cosine that belongs to a sine, and the other way round.
+    /// Returns the cosine that has the same argument as a sine, or the sine that has the same
+    /// argument as a cosine.
     fn partner(&self, symbol: SymbolId) -> Option<SymbolId> {
         self.drive.rotations.iter().find_map(|&(_, sin, cos)| {
             (sin == symbol)
@@ -234,7 +232,7 @@ impl Derivation<'_> {
         })
     }
 
-    /// The drive as plain data, with its powers in a frame.
+    /// Returns the drive as plain data, with its power in the given frame.
     pub(super) fn plain_drive(&self, frame: Option<&DerivedFrame>) -> Option<DriveTerms> {
         self.scene.drive.as_ref()?;
         let DerivedDrive {
@@ -273,8 +271,8 @@ impl Derivation<'_> {
         })
     }
 
-    /// Power −2 R of friction and drag, if there are any, where energies are asked for
-    /// and something from outside feeds them.
+    /// Returns the power −2 R of friction and drag, with Rayleigh's function R. `None` without
+    /// friction and drag, if energies are not requested, or if no external force feeds them.
     pub(super) fn total_friction_power(&self) -> Option<Expr> {
         let requests = &self.scene.requests;
         let fed = self.scene.drive.is_some() || requests.forces;

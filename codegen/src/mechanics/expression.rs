@@ -1,7 +1,7 @@
-//! Expressions as they leave the algebra: plain data in one canonical order.
+//! Plain expressions: results of the algebra in one canonical order.
 //!
-//! This is a carrier and no algebra system: an [`Expr`] is read, printed and
-//! lowered, never simplified or differentiated.
+//! An [`Expr`] only carries a formula. It is read, printed and lowered to operations, but never
+//! simplified or differentiated.
 
 use crate::exact::Rational;
 use std::cmp::Ordering;
@@ -11,37 +11,38 @@ use std::collections::{BTreeMap, BTreeSet};
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct SymbolId(pub u32);
 
-/// Role of a symbol; the declaration order is the canonical order of factors in
-/// a product, constants first so that they can be folded together.
+/// Role of a symbol. The declaration order is the canonical order of factors in a product:
+/// constants come first, so that they can be folded together.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Role {
-    /// A named number of the description: a parameter of the model.
+    /// A parameter of the model: a named number of the description.
     Parameter,
-    /// A combination of masses and lengths, folded into the model once.
+    /// A constant of the model: a combination of masses and lengths, computed once per model.
     Constant,
-    /// A function of time alone: time itself, what is formed of it by a drive.
+    /// The time, or a function of time alone in a drive.
     Temporal,
-    /// Cosine or sine of one coordinate or of a difference of two.
+    /// Cosine or sine of a coordinate or of a difference of two.
     Trigonometric,
-    /// A quantity that a linear system defines (in-phase velocities, D).
+    /// A quantity defined by a linear system (in-phase velocities, the determinant D).
     Derived,
     /// A generalized coordinate.
     Coordinate,
     /// A generalized velocity.
     Velocity,
-    /// The angle or the rate of a joint.
+    /// Relative angle or rate of a joint.
     Joint,
-    /// Of the line of a straight spring: its components, its length, slopes and rate of that.
+    /// A quantity of a straight spring's line: its components, its length, and the length's slopes
+    /// and rate.
     Line,
-    /// A generalized acceleration; appears in the rates of observables only.
+    /// A generalized acceleration; used only in rates of observables.
     Acceleration,
     /// A generalized momentum.
     Momentum,
-    /// The bookkeeping factor of an expansion; never leaves the derivation.
+    /// The small factor ε of a series expansion; it never leaves the derivation.
     Bookkeeping,
 }
 
-/// A symbol's three spellings and its role.
+/// A symbol: three spellings and a role.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Symbol {
     /// Spelling in emitted code (`cos_child_1`).
@@ -54,7 +55,7 @@ pub struct Symbol {
     pub role: Role,
 }
 
-/// The symbols of one derivation, in the order of their creation.
+/// Symbols of one derivation, in the order of their creation.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Symbols {
     entries: Vec<Symbol>,
@@ -63,15 +64,15 @@ pub struct Symbols {
 }
 
 impl Symbols {
-    /// A parameter of the scene. The name is the user's: it may be spelled like
-    /// a symbol of ours, and stays apart from that.
+    /// Creates a parameter of the scene. Its name comes from the user and may have the spelling of
+    /// another symbol, from which it stays distinct.
     pub fn parameter(&mut self, name: &str, latex: &str) -> SymbolId {
         self.push(Role::Parameter, name.to_owned(), name, latex)
     }
 
-    /// The symbol spelled `text` in formulas, created if it is new. The
-    /// spelling in code is `code`, with a number if another symbol has that
-    /// already: `coupling_a_b_c` may couple a to b_c or a_b to c.
+    /// Returns the symbol spelled `text` in formulas, and creates it if it is new. Its spelling in
+    /// code is `code`, followed by a number if another symbol has that spelling already:
+    /// `coupling_a_b_c` may couple a to b_c or a_b to c.
     pub fn intern(&mut self, role: Role, code: &str, text: &str, latex: &str) -> SymbolId {
         if let Some(&id) = self.by_text.get(text) {
             return id;
@@ -98,17 +99,17 @@ impl Symbols {
         id
     }
 
-    /// The symbol's entry.
+    /// Returns the symbol with this index.
     pub fn get(&self, id: SymbolId) -> &Symbol {
         &self.entries[id.0 as usize]
     }
 
-    /// The symbol spelled `text` in formulas, if there is one; no parameter.
+    /// Returns the symbol spelled `text` in formulas, if it exists; never a parameter.
     pub fn find(&self, text: &str) -> Option<SymbolId> {
         self.by_text.get(text).copied()
     }
 
-    /// All symbols in the order of their creation.
+    /// Iterates over all symbols, in the order of their creation.
     pub fn iter(&self) -> impl Iterator<Item = (SymbolId, &Symbol)> {
         self.entries
             .iter()
@@ -130,9 +131,9 @@ pub enum Expr {
     Symbol(SymbolId),
     /// A sum of at least two terms.
     Sum(Vec<Expr>),
-    /// A product of at least two factors; a number comes first.
+    /// A product of at least two factors; a numeric factor comes first.
     Product(Vec<Expr>),
-    /// An integer power, negative for a quotient.
+    /// An integer power; negative for a divisor.
     Power(Box<Expr>, i32),
 }
 
@@ -143,17 +144,17 @@ impl Default for Expr {
 }
 
 impl Expr {
-    /// The number zero.
+    /// Returns the number zero.
     pub fn zero() -> Self {
         Self::Number(Rational::from(0))
     }
 
-    /// Returns true if this is the number zero.
+    /// Returns true if the expression is the number zero.
     pub fn is_zero(&self) -> bool {
         matches!(self, Self::Number(number) if number.is_zero())
     }
 
-    /// Calls `visit` with every symbol in the expression, repeats included.
+    /// Calls `visit` with every symbol in the expression, including repeated ones.
     pub fn for_each_symbol(&self, visit: &mut impl FnMut(SymbolId)) {
         match self {
             Self::Number(_) => {}
@@ -167,10 +168,9 @@ impl Expr {
         }
     }
 
-    /// The expression with every sum and product in canonical order, which
-    /// depends on the symbols' roles and creation order alone: the order in
-    /// which an algebra system happens to keep terms must not reach the
-    /// generated code.
+    /// Sorts every sum and product into canonical order, which depends only on the symbols' roles
+    /// and creation order. The generated code must not depend on the order in which the algebra
+    /// keeps terms.
     pub fn canonical(self, symbols: &Symbols) -> Self {
         match self {
             Self::Number(_) | Self::Symbol(_) => self,
@@ -180,7 +180,7 @@ impl Expr {
         }
     }
 
-    /// Factors of a product, or the expression itself as its only factor.
+    /// Returns the factors of a product; any other expression is its own only factor.
     pub fn factors(&self) -> &[Expr] {
         match self {
             Self::Product(parts) => parts,
@@ -188,7 +188,7 @@ impl Expr {
         }
     }
 
-    /// Terms of a sum, or the expression itself as its only term.
+    /// Returns the terms of a sum; any other expression is its own only term.
     pub fn terms(&self) -> &[Expr] {
         match self {
             Self::Sum(parts) => parts,
@@ -205,7 +205,7 @@ fn sorted(parts: Vec<Expr>, symbols: &Symbols, compare: Compare) -> Vec<Expr> {
     parts
 }
 
-/// Numbers, then symbols by role, then sums; quotients last.
+/// Orders factors: numbers, then symbols by role, then sums, then divisors.
 fn compare_factors(a: &Expr, b: &Expr, symbols: &Symbols) -> Ordering {
     let (base_a, exponent_a) = power(a);
     let (base_b, exponent_b) = power(b);
@@ -244,7 +244,7 @@ fn compare_bases(a: &Expr, b: &Expr, symbols: &Symbols) -> Ordering {
     }
 }
 
-/// Terms compare by what they multiply, by their numeric factor only then.
+/// Orders terms by the factors other than the number, and then by the number.
 fn compare_terms(a: &Expr, b: &Expr, symbols: &Symbols) -> Ordering {
     fn without_number(expr: &Expr) -> &[Expr] {
         let factors = expr.factors();
@@ -272,19 +272,19 @@ fn compare_all(a: &[Expr], b: &[Expr], symbols: &Symbols, compare: Compare) -> O
     a.len().cmp(&b.len())
 }
 
-/// A formula with what stands on its left.
+/// An equation for documentation: a left side as text and an expression.
 #[derive(Clone, Debug, PartialEq)]
 pub struct NamedFormula {
-    /// Left side in text.
+    /// Left side of the equation as text.
     pub left: String,
-    /// Left side in LaTeX.
+    /// Left side of the equation in LaTeX.
     pub left_latex: String,
-    /// Right side.
+    /// Right side of the equation.
     pub right: Expr,
 }
 
 impl NamedFormula {
-    /// left = right.
+    /// Creates the equation left = right.
     pub fn new(left: impl Into<String>, left_latex: impl Into<String>, right: &Expr) -> Self {
         Self {
             left: left.into(),
@@ -293,12 +293,12 @@ impl NamedFormula {
         }
     }
 
-    /// A formula for what is spelt alike in text and in LaTeX.
+    /// Creates an equation whose left side has the same spelling in text and in LaTeX.
     pub fn of_letter(letter: &str, right: &Expr) -> Self {
         Self::new(letter, letter, right)
     }
 
-    /// A formula for what a symbol stands for.
+    /// Creates the equation that defines a symbol.
     pub fn of_symbol(symbols: &Symbols, symbol: SymbolId, right: &Expr) -> Self {
         let symbol = symbols.get(symbol);
         Self::new(&symbol.text, &symbol.latex, right)

@@ -1,4 +1,4 @@
-//! Runs a derivation as far as the scene asks, and hands out plain data.
+//! Runs the parts of a derivation that the scene requests, and returns the results as plain data.
 
 use super::algebra::{AlgebraError, Formula};
 use super::derivation::Derivation;
@@ -34,7 +34,7 @@ impl Derivation<'_> {
         };
         let requests = &self.scene.requests;
         let requests_transverse = requests.transverse;
-        // The arithmetic on fields takes the constants of copies for equal.
+        // The computation by means and differences assumes that copies have equal constants.
         let nested = requests.symmetric && self.is_nested() && !self.scene.has_unequal_copies();
         if requests.budget.is_some() || nested {
             let coordinates = coordinates::symmetric_coordinates(self.scene);
@@ -56,6 +56,9 @@ impl Derivation<'_> {
         if requests_transverse {
             mechanics.transverse = Some(self.transverse(&absolute));
         }
+        if self.scene.requests.normal_form {
+            mechanics.normal_form = Some(self.normal_form(&absolute));
+        }
         if self.scene.requests.positions {
             mechanics.positions = Some(self.positions(&absolute));
         }
@@ -68,8 +71,7 @@ impl Derivation<'_> {
         Ok(mechanics)
     }
 
-    /// Derives the Lagrangian in symmetric coordinates, and the energy transfer where that is
-    /// asked for.
+    /// Derives the Lagrangian in symmetric coordinates, and the energy transfer if it is requested.
     fn derive_symmetric(
         &mut self,
         absolute: &DerivedFrame,
@@ -106,7 +108,7 @@ impl Derivation<'_> {
         symmetric
     }
 
-    /// The constants as plain data.
+    /// Returns the constants as plain data.
     fn plain_constants(&self) -> Vec<Constant> {
         let constants = self.constants.iter();
         let plain = constants.map(|(&symbol, entry)| Constant {
@@ -118,7 +120,7 @@ impl Derivation<'_> {
         plain.collect()
     }
 
-    /// The meaning of angles and rates of joints as plain data.
+    /// Returns the definitions of relative angles and rates of joints as plain data.
     fn plain_joints(&self) -> BTreeMap<SymbolId, JointDifference> {
         let joints = self.joints.iter();
         let plain = joints.map(|(&symbol, joint)| {
@@ -129,8 +131,7 @@ impl Derivation<'_> {
         plain.collect()
     }
 
-    /// Returns true if copies branch into copies, or have other links below
-    /// them.
+    /// Returns true if copies have copies or other links below them.
     fn is_nested(&self) -> bool {
         let scene = self.scene;
         let copies = scene.groups.iter().flat_map(|group| &group.copies);
@@ -139,7 +140,7 @@ impl Derivation<'_> {
         parents.any(|parent| copies.contains(&&parent))
     }
 
-    /// A frame that names the coordinates and says nothing of their motion.
+    /// Creates a frame that only names the coordinates.
     fn symbols_of(&mut self, coordinates: &[Coordinate]) -> Frame {
         let names: Vec<&String> = coordinates.iter().map(|c| &c.name).collect();
         Frame {
@@ -197,7 +198,7 @@ impl Derivation<'_> {
         }
     }
 
-    fn stiffness(&self, frame: &DerivedFrame) -> MassMatrix {
+    pub(super) fn stiffness(&self, frame: &DerivedFrame) -> MassMatrix {
         let mut matrix = MassMatrix::default();
         for (row, slope) in frame.potential_gradient(self).iter().enumerate() {
             for coordinate in self.coordinates_of(slope) {
@@ -242,8 +243,8 @@ impl Derivation<'_> {
         }
     }
 
-    /// W into all differences; between copies that differ with the mean tree, whose
-    /// `expansion` it is then.
+    /// Derives the transfer W into each difference. If copies differ, it uses the mean tree (the
+    /// tree with mean constants), and `expansion` is that of the mean tree.
     fn transfers(
         &mut self,
         (frame, mismatch): (&DerivedFrame, Option<&Mismatch<'_>>),
@@ -283,7 +284,7 @@ impl Derivation<'_> {
             .collect()
     }
 
-    /// All that is asked for about one difference.
+    /// Derives all requested quantities of one difference.
     fn transfer(
         &mut self,
         frame: &DerivedFrame,
@@ -337,8 +338,8 @@ impl Derivation<'_> {
         parts.map(|part| self.expr(part))
     }
 
-    /// The velocities' series, one for each counting of which orders beyond
-    /// the brackets' are asked for.
+    /// Expands the velocities in a series, for each small quantity (`Counting`) for which orders
+    /// are requested that the Poisson brackets do not provide.
     fn series(
         &mut self,
         frame: &DerivedFrame,
@@ -350,7 +351,7 @@ impl Derivation<'_> {
             .into_iter()
             .filter_map(|counting| {
                 let order = higher_orders(request, counting).max()?;
-                // W has a factor of first order beside each velocity.
+                // Every velocity in W has a factor of first order.
                 let order = order.saturating_sub(1);
                 Some(self.velocity_series(frame, coordinates, expansion, counting, order))
             })
@@ -382,8 +383,8 @@ impl Derivation<'_> {
     }
 }
 
-/// Orders that are derived from the velocities' series; the first order in the
-/// angles and the second in the amplitude come from Poisson brackets.
+/// Returns the requested orders that need the series of the velocities. First order in the angles
+/// and second order in the amplitude come from Poisson brackets.
 fn higher_orders(request: &TransferRequest, counting: Counting) -> impl Iterator<Item = u32> + '_ {
     let orders = match counting {
         Counting::Angle => &request.angle_orders,

@@ -1,11 +1,11 @@
-//! The mechanics of a tree in loops.
+//! Mechanics of a tree whose code is loops.
 
 use super::Mechanics;
 use super::articulation::Articulation;
 use super::derivation::Derivation;
 
 impl Derivation<'_> {
-    /// A tree in loops: one link for all, and the drive.
+    /// Derives the equations of one link, which represents all links, and the drive.
     pub(super) fn finish_loops(mut self) -> Mechanics {
         self.drive_signals();
         let link = self.link_balance();

@@ -1,5 +1,5 @@
-//! Springs and friction on the difference of two angles: in the pivots of links, and between
-//! links that are not parent and child.
+//! Springs and friction that depend on the difference of two angles: in the pivots of links, and
+//! between links that are not parent and child.
 
 use super::algebra::Formula;
 use super::derivation::Derivation;
@@ -12,31 +12,31 @@ use crate::scene::{LinkId, LinkPair, PassiveTorques, Scene};
 pub(super) struct ForceElement<'s> {
     pub(super) part: ElementLinks,
     pub(super) words: ElementWords,
-    /// Spring and friction; drag of the link of a pivot besides.
+    /// Coefficients of spring and friction; for a pivot also the drag of the link.
     pub(super) passive: &'s PassiveTorques,
 }
 
-/// A force element in constants and in words.
+/// Names of a force element for constants and for docs.
 pub(super) struct ElementWords {
-    /// Names of the constants.
+    /// Names that become part of the constants' names.
     pub(super) constants: Vec<String>,
-    /// What the spring is one of.
+    /// Owner of the spring, in words.
     pub(super) owner: String,
-    /// Place of spring and friction.
+    /// Location of spring and friction, in words.
     pub(super) place: String,
 }
 
-/// The links of a force element.
+/// Links of a force element.
 #[derive(Clone, Copy)]
 pub(super) enum ElementLinks {
-    /// A link and what it hangs from.
+    /// A link and its parent, by the index of the link.
     Pivot(usize),
-    /// Two links, by the number of their pair.
+    /// Two links, with the index of their pair.
     Pair(usize, LinkPair),
 }
 
 impl Scene {
-    /// The pivots of all links, and the pairs of links with something between them.
+    /// Returns the force elements in the pivots of all links and between pairs of links.
     pub(super) fn force_elements(&self) -> Vec<ForceElement<'_>> {
         let pivots = self.links.iter().enumerate().map(|(index, link)| {
             let orbit = &self.orbits[link.orbit.0].name;
@@ -59,7 +59,7 @@ impl Scene {
         pivots.chain(pairs).collect()
     }
 
-    /// A spring-damper in constants and in words.
+    /// Returns the names of a spring-damper for constants and for docs.
     pub(super) fn words_of(&self, spring_damper: usize) -> ElementWords {
         let what = format!("of `{}`", self.spring_dampers[spring_damper].what);
         ElementWords {
@@ -71,8 +71,8 @@ impl Scene {
 }
 
 impl Derivation<'_> {
-    /// The difference of the angles of an element in the symbols of all links, less the angle at
-    /// which its spring is at rest.
+    /// Returns the difference of the two angles minus the spring's rest angle; `angles` are the
+    /// symbols of all links.
     pub(super) fn element_angle(
         &mut self,
         part: ElementLinks,
@@ -89,7 +89,7 @@ impl Derivation<'_> {
         }
     }
 
-    /// The difference of the rates.
+    /// Returns the difference of the two angular velocities.
     pub(super) fn element_rate(&mut self, part: ElementLinks, velocities: &[SymbolId]) -> Formula {
         match part {
             ElementLinks::Pivot(link) => self.joint_rate(link, velocities),
@@ -102,7 +102,8 @@ impl Derivation<'_> {
         }
     }
 
-    /// Names of the links, which tell the element from others of the same constants.
+    /// Returns the names of the links, which distinguish the element from others with the same
+    /// constants.
     pub(super) fn element_names(&self, part: ElementLinks) -> Vec<String> {
         match part {
             ElementLinks::Pivot(link) => vec![self.scene.links[link].name.clone()],
@@ -110,14 +111,14 @@ impl Derivation<'_> {
         }
     }
 
-    /// Makes room for the differences of all pairs.
+    /// Allocates an entry for the relative angle and rate of every pair.
     pub(super) fn prepare_pairs(&mut self) {
         let pairs = self.scene.link_pairs();
         self.pairs = pairs.into_iter().map(PairDifferences::of).collect();
     }
 
-    /// Names of the links of a pair; a number besides where a spring-damper before acts
-    /// between the same.
+    /// Returns the names of the two links. A number follows if an earlier spring-damper connects
+    /// the same links.
     pub(super) fn pair_names(&self, pair: LinkPair) -> Vec<String> {
         let names = pair
             .links

@@ -1,5 +1,5 @@
-//! Friction that is not viscous (physics §17): its torques are symbols of their own, which
-//! stand in the equations of motion as viscous torques do.
+//! Friction that is not viscous (physics §17). Each of its torques is a separate symbol, which
+//! enters the equations of motion as a viscous torque does.
 
 use super::algebra::Formula;
 use super::derivation::Derivation;
@@ -9,43 +9,44 @@ use super::frame::DerivedFrame;
 use super::letters;
 use super::meaning::{DerivedSource, DerivedTorque};
 use super::print::Index;
-use crate::scene::{Coordinate, FrictionLaw, FrictionPlace, LinkId, PassiveTorques};
+use crate::scene::{Coordinate, FrictionContact, FrictionLaw, LinkId, PassiveTorques};
 
-/// A torque (C/s + q s) w of friction, by which a link or its joint is braked.
+/// A friction torque D = (C/s + q s) w against the rate w, in a joint or against the ground:
+/// Coulomb friction C, quadratic friction q, speed s = √(w² + ε²).
 #[derive(Clone, Debug, PartialEq)]
 pub struct BrakingTorque {
-    /// The symbol that stands for it.
+    /// Symbol D of the friction torque.
     pub symbol: SymbolId,
-    /// First and second derivative of the torque by w; of single links.
+    /// First and second derivative of the torque by w, for single links only.
     pub slopes: [SymbolId; 2],
-    /// The part of the links that it acts on.
-    pub place: FrictionPlace,
-    /// Whose torque it is.
+    /// Contact at which the torque acts: pivot or ground.
+    pub place: FrictionContact,
+    /// Link or symmetric coordinate to which the torque belongs.
     pub source: TorqueSource,
 }
 
-/// The meaning of a braking torque in its frame.
+/// Link or symmetric coordinate to which a friction torque belongs.
 #[derive(Clone, Debug, PartialEq)]
 pub enum TorqueSource {
-    /// The torque on one link, against another one or the ground.
+    /// The torque on one link, against another link or the ground.
     Link {
-        /// The link that the torque brakes where its rate is positive.
+        /// Link that the torque brakes if the rate w is positive.
         link: LinkId,
-        /// The link that it drives then.
+        /// Link on which the opposite torque acts; `None` for the ground.
         against: Option<LinkId>,
-        /// Rate w of the link in the frame's velocities.
+        /// Rate w, in the velocities of the frame.
         rate: Expr,
-        /// Law of the friction.
+        /// Friction law with coefficients C, q and ε.
         law: Box<FrictionLaw<Expr>>,
-        /// The speed s, a symbol for formulas alone.
+        /// Symbol of the speed s, used in printed formulas only.
         speed: SymbolId,
     },
-    /// The component of the torques of copies in this symmetric coordinate.
+    /// Component of the torques of copies in the symmetric coordinate with this index.
     Coordinate(usize),
 }
 
-impl FrictionPlace {
-    /// The mark of its letters.
+impl FrictionContact {
+    /// Returns the index that distinguishes the letters of these symbols.
     fn mark(self) -> &'static str {
         match self {
             Self::Joint => "",
@@ -62,25 +63,25 @@ impl FrictionPlace {
 }
 
 impl Derivation<'_> {
-    /// The torques of all links, with their constants named.
+    /// Creates the friction torques of all links, and names their constants.
     pub(super) fn braking_torques(&mut self, velocities: &[SymbolId]) -> Vec<DerivedTorque> {
         let mut torques = Vec::new();
         let scene = self.scene;
         for element in scene.force_elements() {
-            for place in FrictionPlace::ALL {
+            for place in FrictionContact::ALL {
                 let law = element.passive.law(place);
                 if law.is_none() {
                     continue;
                 }
                 self.name_law(&element.words, place, law);
                 let source = match (place, element.part) {
-                    (FrictionPlace::Joint, part @ ElementLinks::Pivot(link)) => {
+                    (FrictionContact::Joint, part @ ElementLinks::Pivot(link)) => {
                         DerivedSource::Link {
                             link: LinkId(link),
                             rate: self.element_rate(part, velocities),
                         }
                     }
-                    (FrictionPlace::Ground, ElementLinks::Pivot(link)) => DerivedSource::Link {
+                    (FrictionContact::Ground, ElementLinks::Pivot(link)) => DerivedSource::Link {
                         link: LinkId(link),
                         rate: Formula::symbol(velocities[link]),
                     },
@@ -99,13 +100,13 @@ impl Derivation<'_> {
     fn torque_called(
         &mut self,
         names: &[impl AsRef<str>],
-        place: FrictionPlace,
+        place: FrictionContact,
         source: DerivedSource,
     ) -> DerivedTorque {
         let mark = place.mark();
         let code = match place {
-            FrictionPlace::Joint => "braking",
-            FrictionPlace::Ground => "braking_ground",
+            FrictionContact::Joint => "braking",
+            FrictionContact::Ground => "braking_ground",
         };
         let mark_latex = place.latex_mark();
         let mut intern = |suffix: &str, prime: &str, latex_prime: &str| {
@@ -125,21 +126,21 @@ impl Derivation<'_> {
         }
     }
 
-    /// Names C, q and ε of a force element, and returns them.
+    /// Names the constants C, q and ε of a force element, and returns them.
     pub(super) fn name_law(
         &mut self,
         element: &ElementWords,
-        place: FrictionPlace,
+        place: FrictionContact,
         law: &FrictionLaw,
     ) -> [Formula; 3] {
         let index = Index::of(&element.constants);
         let (mark, latex_mark) = (place.mark(), place.latex_mark());
         let (words, what) = match place {
-            FrictionPlace::Joint => (
+            FrictionContact::Joint => (
                 ["coulomb", "quadratic_friction", "friction_width"],
                 format!("friction {}", element.place),
             ),
-            FrictionPlace::Ground => (
+            FrictionContact::Ground => (
                 ["coulomb_drag", "quadratic_drag", "drag_width"],
                 format!("drag {} against the ground", element.owner),
             ),
@@ -166,8 +167,8 @@ impl Derivation<'_> {
         named.map(|constant| constant.unwrap_or_else(Formula::zero))
     }
 
-    /// The passive torques of an orbit, or of what acts between links, in named constants;
-    /// zero where it has none.
+    /// Returns the passive torques of an orbit (equal copies of a link) or of a spring-damper, as
+    /// named constants; absent ones are zero.
     pub(super) fn passive_constants(&self, names: &[impl AsRef<str>]) -> PassiveTorques<Expr> {
         let index = &Index::of(names).text;
         PassiveTorques {
@@ -175,11 +176,11 @@ impl Derivation<'_> {
             drag: self.named_constant(letters::DRAG.text, index),
             spring: self.named_constant(letters::SPRING.text, index),
             rest: self.named_constant(letters::REST.text, index),
-            laws: FrictionPlace::ALL.map(|place| self.law_constants(index, place)),
+            laws: FrictionContact::ALL.map(|place| self.law_constants(index, place)),
         }
     }
 
-    fn law_constants(&self, index: &str, place: FrictionPlace) -> FrictionLaw<Expr> {
+    fn law_constants(&self, index: &str, place: FrictionContact) -> FrictionLaw<Expr> {
         let named = |letter| self.named_constant(&format!("{letter}{}", place.mark()), index);
         FrictionLaw {
             coulomb: named("C"),
@@ -194,16 +195,16 @@ impl Derivation<'_> {
         found.map_or_else(Expr::zero, Expr::Symbol)
     }
 
-    /// The torques of equal copies in symmetric coordinates, and what stands for those of
-    /// the links: link = mean + Σ weight · difference, as for their angles. Sums over
-    /// copies of what is equal in all of them then vanish before any number is rounded.
+    /// Transforms the torques of equal copies to symmetric coordinates, like their angles: link =
+    /// mean + Σ weight · difference. Returns the new torques and the replacements for those of the
+    /// links. Sums over copies of equal terms then vanish before any number is rounded.
     pub(super) fn symmetric_torques(
         &mut self,
         torques: &[DerivedTorque],
         coordinates: &[Coordinate],
     ) -> (Vec<DerivedTorque>, Vec<(SymbolId, Formula)>) {
         let (mut found, mut replacements) = (Vec::new(), Vec::new());
-        for place in FrictionPlace::ALL {
+        for place in FrictionContact::ALL {
             for (index, coordinate) in coordinates.iter().enumerate() {
                 let (orbit, _) = coordinate.kind.orbit_and_difference();
                 let first = self.scene.orbits[orbit].links[0];
@@ -231,8 +232,8 @@ impl Derivation<'_> {
         (found, replacements)
     }
 
-    /// By how much a torque of friction or its slope changes with the rate that it depends
-    /// on; zero for other symbols.
+    /// Returns the deviation of a friction torque, or of its slope, caused by the deviation of its
+    /// rate; zero for other symbols.
     pub(super) fn braking_change(
         &self,
         frame: &DerivedFrame,
@@ -254,13 +255,13 @@ impl Derivation<'_> {
         Formula::zero()
     }
 
-    /// The torques of a frame as plain data.
+    /// Returns the friction torques of a frame as plain data.
     pub(super) fn plain_torques(&mut self, torques: &[DerivedTorque]) -> Vec<BrakingTorque> {
         let torques = torques.iter().map(|torque| {
             let source = match &torque.source {
                 DerivedSource::Link { link, rate } => {
                     let parent = self.scene.links[link.0].parent;
-                    let is_in_pivot = torque.place == FrictionPlace::Joint;
+                    let is_in_pivot = torque.place == FrictionContact::Joint;
                     let ends = (*link, parent.filter(|_| is_in_pivot));
                     let constants = [self.orbit_name(link.0)];
                     let name = self.scene.links[link.0].name.clone();
@@ -288,7 +289,7 @@ impl Derivation<'_> {
 
     fn plain_source(
         &mut self,
-        place: FrictionPlace,
+        place: FrictionContact,
         rate: &Formula,
         (link, against): (LinkId, Option<LinkId>),
         constants: &[String],
@@ -305,7 +306,7 @@ impl Derivation<'_> {
         }
     }
 
-    /// √(w² + ε²) for formulas.
+    /// Returns a symbol for √(w² + ε²), for printed formulas.
     fn speed(&mut self, names: &[String], rate: &Expr, width: &Expr) -> SymbolId {
         let is_name = matches!(rate, Expr::Symbol(_));
         let spelt = |print: fn(&Expr, &Symbols) -> String| {
@@ -326,7 +327,8 @@ impl Derivation<'_> {
 }
 
 impl BrakingTorque {
-    /// The torque of one link as a formula, (C/s + q s) w.
+    /// Returns the torque of one link as a formula, (C/s + q s) w; `None` for a symmetric
+    /// coordinate.
     pub fn formula(&self) -> Option<Expr> {
         let TorqueSource::Link {
             rate, law, speed, ..

@@ -1,13 +1,12 @@
-//! Rates of the momenta: the forces of the Lagrangian, the slopes of the
-//! Hamiltonian, and the change of the mass matrix meanwhile. None of them
-//! inverts the mass matrix: the velocities stand for M⁻¹ p.
+//! Rates of the momenta: forces from the Lagrangian, slopes of the Hamiltonian, and the change of
+//! the mass matrix. No mass matrix is inverted, because the velocities represent M⁻¹ p.
 
 use super::algebra::Formula;
 use super::derivation::Derivation;
 use super::frame::DerivedFrame;
 
 impl DerivedFrame {
-    /// ∂L/∂q_i at fixed velocities.
+    /// Returns ∂L/∂q_i at fixed velocities.
     pub(super) fn forces(&self, derivation: &Derivation<'_>) -> Vec<Formula> {
         self.kinetic_gradient(derivation)
             .iter()
@@ -16,7 +15,7 @@ impl DerivedFrame {
             .collect()
     }
 
-    /// ∂L/∂q_i + Q_i, of friction, drag and drive.
+    /// Returns ∂L/∂q_i + Q_i, with the generalized forces Q_i of friction, drag and drive.
     pub(super) fn momentum_rates(&self, derivation: &Derivation<'_>) -> Vec<Formula> {
         let others = self.dissipative_forces(derivation).into_iter();
         self.forces(derivation)
@@ -26,8 +25,8 @@ impl DerivedFrame {
             .collect()
     }
 
-    /// ∂H/∂q_i at fixed momenta: from ∂M⁻¹ = −M⁻¹ (∂M) M⁻¹,
-    /// −½ Σ v_j (∂_i M_jk) v_k + ∂U/∂q_i.
+    /// Returns ∂H/∂q_i at fixed momenta. From ∂M⁻¹ = −M⁻¹ (∂M) M⁻¹ it is −½ Σ v_j (∂_i M_jk) v_k +
+    /// ∂U/∂q_i.
     pub(super) fn hamiltonian_slopes(&self, derivation: &Derivation<'_>) -> Vec<Formula> {
         let mut slopes: Vec<Vec<Formula>> = self
             .potential_gradient(derivation)
@@ -46,7 +45,7 @@ impl DerivedFrame {
         summed(slopes)
     }
 
-    /// (Ṁ v)_i = Σ (∂_k M_ij) v_k v_j.
+    /// Returns (Ṁ v)_i = Σ (∂_k M_ij) v_k v_j.
     pub(super) fn mass_changes(&self, derivation: &Derivation<'_>) -> Vec<Formula> {
         let mut changes = vec![Vec::new(); self.coordinates.len()];
         for (i, j, entry) in self.mass.iter() {

@@ -1,6 +1,6 @@
-//! The expansion of the inverse mass matrix in the difference angles
-//! (physics §4): M̃ = M⁽⁰⁾ + ε M⁽¹⁾ + ε² M⁽²⁾ + …, and with w = M⁽⁰⁾⁻¹ p
-//! the kinetic energy order by order, without an inverse written out.
+//! Expansion of the inverse mass matrix in the difference angles (physics §4): M̃ = M⁽⁰⁾ + ε M⁽¹⁾ +
+//! ε² M⁽²⁾ + …. With w = M⁽⁰⁾⁻¹ p it gives the kinetic energy order by order, without writing out
+//! an inverse.
 
 use super::algebra::Formula;
 use super::derivation::{Derivation, Trigonometric};
@@ -10,39 +10,40 @@ use super::print::latex_name;
 use crate::functions::Counting;
 use crate::scene::{Coordinate, CoordinateKind};
 
-/// The largest in-phase block whose inverse is also written out, for formulas
-/// that people read.
+/// Largest in-phase block whose inverse is also written out, for printed formulas.
 const WRITTEN_OUT: usize = 2;
 
-/// M̃ and its inverse about the in-phase motion.
+/// Mass matrix M̃ and its inverse, expanded about the in-phase motion.
 pub(super) struct DerivedExpansion {
     /// Indices of the means among the coordinates.
     pub(super) in_phase: Vec<usize>,
-    /// Indices of the differences.
+    /// Indices of the differences among the coordinates.
     pub(super) differences: Vec<usize>,
-    /// M⁽⁰⁾, M⁽¹⁾, M⁽²⁾, … with the difference angles in them.
+    /// Orders M⁽⁰⁾, M⁽¹⁾, M⁽²⁾, … of the mass matrix, including their powers of the difference
+    /// angles.
     pub(super) orders: Vec<MassMatrix>,
-    /// w = M⁽⁰⁾⁻¹ p: a symbol for each mean, p_d / M_dd for a difference.
+    /// Velocities w = M⁽⁰⁾⁻¹ p at leading order: a symbol for each mean, and p_d / M_dd for a
+    /// difference d.
     pub(super) velocities: Vec<Formula>,
-    /// The symbols of the means' w, in the order of `in_phase`.
+    /// Symbols of the velocities w of the means, in the order of `in_phase`.
     pub(super) velocity_symbols: Vec<SymbolId>,
-    /// The inverse of the in-phase block written out, where it is small.
+    /// Inverse of the in-phase block, written out if the block is small.
     pub(super) written_out: Option<DerivedInverse>,
 }
 
-/// The inverse of the in-phase block as adjugate over determinant.
+/// Inverse of the in-phase block: adjugate and determinant.
 pub(super) struct DerivedInverse {
-    /// The symbol D.
+    /// Symbol D of the determinant.
     pub(super) determinant: SymbolId,
-    /// D as a formula.
+    /// Formula of the determinant D.
     pub(super) determinant_value: Formula,
-    /// The adjugate, dense, in the order of `in_phase`.
+    /// Adjugate, dense, in the order of `in_phase`.
     pub(super) adjugate: Vec<Vec<Formula>>,
 }
 
 impl Derivation<'_> {
-    /// Coefficients of ε⁰, ε¹, … εᵒʳᵈᵉʳ of a formula when the differences,
-    /// and with [`Counting::Amplitude`] their momenta, carry a factor ε.
+    /// Returns the coefficients of ε⁰, ε¹, … ε^order of a formula. The differences have a factor ε,
+    /// and with [`Counting::Amplitude`] also their momenta.
     pub(super) fn orders(
         &mut self,
         formula: &Formula,
@@ -53,14 +54,13 @@ impl Derivation<'_> {
         self.orders_with(formula, pairs, counting, order, Vec::new())
     }
 
-    /// The bookkeeping factor.
+    /// Returns the symbol of the expansion's small factor ε.
     pub(super) fn epsilon(&mut self) -> SymbolId {
         self.symbols
             .intern(Role::Bookkeeping, "epsilon", "ε", "\\varepsilon")
     }
 
-    /// As [`orders`](Self::orders), with further symbols replaced by series in
-    /// ε.
+    /// Computes [`orders`](Self::orders) with further symbols replaced by series in ε.
     pub(super) fn orders_with(
         &mut self,
         formula: &Formula,
@@ -106,7 +106,7 @@ impl Derivation<'_> {
             .collect()
     }
 
-    /// Expands M̃ about the in-phase motion, through `order`, at least 2.
+    /// Expands M̃ about the in-phase motion up to `order`, which is at least 2.
     pub(super) fn expand_mass(
         &mut self,
         frame: &DerivedFrame,
@@ -175,7 +175,7 @@ impl Derivation<'_> {
     }
 }
 
-/// Taylor series of cos x and sin x up to x^order.
+/// Returns the Taylor series of cos x and sin x up to x^order.
 fn series(x: &Formula, order: u32) -> (Formula, Formula) {
     let mut cos = Formula::zero();
     let mut sin = Formula::zero();
@@ -196,7 +196,7 @@ fn series(x: &Formula, order: u32) -> (Formula, Formula) {
 }
 
 impl DerivedExpansion {
-    /// M⁽ⁿ⁾ w.
+    /// Returns the product M⁽ⁿ⁾ w for n = `order`, with the mass matrix of that order.
     fn apply(&self, order: usize) -> Vec<Formula> {
         let n = self.velocities.len();
         (0..n)
@@ -213,16 +213,15 @@ impl DerivedExpansion {
         &Formula::integer(2).pow(-1) * &products
     }
 
-    /// K⁽¹⁾ = −½ wᵀ M⁽¹⁾ w: the kinetic energy of first order in the
-    /// difference angles.
+    /// Returns K⁽¹⁾ = −½ wᵀ M⁽¹⁾ w, the part of the kinetic energy of first order in the difference
+    /// angles.
     pub(super) fn first_order(&self) -> Formula {
         -self.half_form(&self.velocities, &self.apply(1)).expand()
     }
 
-    /// K⁽¹⁾ + K⁽²⁾ as far as they are of second order in the amplitude:
-    /// K⁽²⁾ = ½ wᵀ(M⁽¹⁾ M⁽⁰⁾⁻¹ M⁽¹⁾ − M⁽²⁾) w, of which M⁽⁰⁾⁻¹ enters
-    /// by the differences' diagonal only: the in-phase part of M⁽¹⁾ w is of
-    /// second order in the amplitude itself.
+    /// Returns the terms of K⁽¹⁾ + K⁽²⁾ of second order in the amplitude, with K⁽²⁾ = ½ wᵀ(M⁽¹⁾
+    /// M⁽⁰⁾⁻¹ M⁽¹⁾ − M⁽²⁾) w. Only the diagonal of M⁽⁰⁾⁻¹ for the differences enters, because the
+    /// in-phase part of M⁽¹⁾ w is itself of second order in the amplitude.
     pub(super) fn second_order_in_amplitude(&self) -> Formula {
         let coupling = self.apply(1);
         let squares: Formula = self
@@ -236,8 +235,8 @@ impl DerivedExpansion {
         (&self.first_order() + &quadratic).expand()
     }
 
-    /// The inverse mass matrix to first order in the difference angles,
-    /// written out: M⁽⁰⁾⁻¹ and −M⁽⁰⁾⁻¹ M⁽¹⁾ M⁽⁰⁾⁻¹.
+    /// Returns the inverse mass matrix up to first order in the difference angles, written out:
+    /// M⁽⁰⁾⁻¹ and −M⁽⁰⁾⁻¹ M⁽¹⁾ M⁽⁰⁾⁻¹.
     pub(super) fn inverse(&self) -> Option<[Vec<Vec<Formula>>; 2]> {
         let written = self.written_out.as_ref()?;
         let n = self.velocities.len();
@@ -272,7 +271,7 @@ impl DerivedExpansion {
         Some([leading, first])
     }
 
-    /// The in-phase velocities w written out, one for each mean.
+    /// Returns the in-phase velocities w written out, one per mean.
     pub(super) fn written_velocities(
         &self,
         frame: &DerivedFrame,

@@ -1,6 +1,6 @@
-//! Angles and rates of joints. Both are symbols of their own all through the derivation, and
-//! are formed by one subtraction: of rounded products κ θ_i − κ θ_π(i) stiff springs would
-//! keep few digits.
+//! Relative angles and rates of joints. Each is a separate symbol throughout the derivation and is
+//! computed by one subtraction. Differences of rounded products such as κ θ_i − κ θ_π(i) would lose
+//! digits for stiff springs (π(i) is the parent of i).
 
 use super::algebra::Formula;
 use super::derivation::Derivation;
@@ -10,24 +10,24 @@ use super::meaning::JointDifference;
 use super::mismatch::CopyConstants;
 use crate::scene::{Coordinate, LinkId};
 
-/// What joints have one of.
+/// Kind of a relative quantity.
 #[derive(Clone, Copy)]
 pub(super) enum JointQuantity {
     Angle,
     Rate,
-    /// Of two links that are not parent and child.
+    /// Relative angle of two links that are not parent and child.
     PairAngle,
     PairRate,
-    /// The same in symmetric coordinates.
+    /// Relative angle of such a pair in symmetric coordinates.
     SymmetricPairAngle,
     SymmetricPairRate,
-    /// Of small differences beside a motion.
+    /// Relative angle of small deviations from a motion.
     SmallAngle,
     SmallRate,
 }
 
 impl Derivation<'_> {
-    /// The difference as a symbol, or what it is the same as.
+    /// Creates a symbol for the difference, or returns the existing symbol for an equal one.
     pub(super) fn joint(
         &mut self,
         quantity: JointQuantity,
@@ -38,7 +38,7 @@ impl Derivation<'_> {
             return Formula::symbol(*own);
         }
         let (code, text, latex) = match quantity {
-            // Without its rest it is the angle of the joint.
+            // With a rest angle the symbol is the spring's deflection, not the joint's angle.
             JointQuantity::Angle if !difference.rest.is_zero() => ("deflection", "φ", "\\varphi"),
             JointQuantity::Angle => ("joint_angle", "φ", "\\varphi"),
             JointQuantity::Rate => ("joint_rate", "φ̇", "\\dot\\varphi"),
@@ -54,12 +54,12 @@ impl Derivation<'_> {
         Formula::symbol(symbol)
     }
 
-    /// The rate of a link's joint.
+    /// Returns the relative rate of a link's joint.
     pub(super) fn joint_rate(&mut self, link: usize, velocities: &[SymbolId]) -> Formula {
         self.joint_of(JointQuantity::Rate, link, velocities, Formula::zero())
     }
 
-    /// The difference of a link in the symbols of all links.
+    /// Returns the difference between a link and its parent in the symbols of all links.
     pub(super) fn joint_of(
         &mut self,
         quantity: JointQuantity,
@@ -74,8 +74,8 @@ impl Derivation<'_> {
         self.joint(quantity, &[&scene.links[link].name], difference)
     }
 
-    /// What stands for the differences of links in symmetric coordinates: that of a link is
-    /// mean + Σ weight · difference, as its angle is.
+    /// Returns the replacements for relative angles or rates of links in symmetric coordinates.
+    /// They transform like the angles: link = mean + Σ weight · difference.
     pub(super) fn symmetric_joints(
         &mut self,
         absolute: &DerivedFrame,
@@ -107,7 +107,7 @@ impl Derivation<'_> {
                 }
                 let rest =
                     &rests.into_iter().sum::<Formula>() / &Formula::integer(coordinate.norm());
-                let above = self.above(coordinates, coordinate);
+                let above = self.parent_coordinate(coordinates, coordinate);
                 let difference = JointDifference::of_links(
                     of_coordinates[index],
                     above.map(|parent| of_coordinates[parent]),
@@ -124,15 +124,20 @@ impl Derivation<'_> {
         replacements
     }
 
-    /// The joint in which the link with this angle or rate hangs, if it has a symbol.
+    /// Returns the joint of the link with this angle or rate, if the joint has its own symbol.
     pub(super) fn joint_in(&self, own: SymbolId) -> Option<(SymbolId, &JointDifference<Formula>)> {
         let joints = self.joints.iter().map(|(&symbol, joint)| (symbol, joint));
         let mut own = joints.filter(|(_, joint)| joint.own() == Some(own));
         own.find(|(symbol, _)| !self.is_of_pair(*symbol))
     }
 
-    /// The coordinate that the parents of a coordinate's links have with the same weights.
-    fn above(&self, coordinates: &[Coordinate], coordinate: &Coordinate) -> Option<usize> {
+    /// Returns the index of the coordinate in which the parents of this coordinate's links have the
+    /// same weights.
+    fn parent_coordinate(
+        &self,
+        coordinates: &[Coordinate],
+        coordinate: &Coordinate,
+    ) -> Option<usize> {
         let parent = |&(LinkId(link), weight): &_| Some((self.scene.links[link].parent?, weight));
         let parents: Option<Vec<(LinkId, i64)>> = coordinate.weights.iter().map(parent).collect();
         let parents = parents?;
@@ -141,7 +146,8 @@ impl Derivation<'_> {
             .position(|other| parents.iter().all(|pair| other.weights.contains(pair)))
     }
 
-    /// What stands for differences of which these constants are taken for zero.
+    /// Returns the replacements for relative angles and rates if the constants in `zero` are set to
+    /// zero.
     pub(super) fn joints_without(&self, zero: &[(SymbolId, Formula)]) -> Vec<(SymbolId, Formula)> {
         let joints = self.joints.iter();
         let changed = joints.filter(|(_, joint)| {
@@ -153,8 +159,8 @@ impl Derivation<'_> {
             .collect()
     }
 
-    /// A formula in which differences between copies that are at rest at several angles are
-    /// written out, so that what cancels does.
+    /// Writes out the differences between copies whose springs have different rest angles, so that
+    /// terms can cancel.
     pub(super) fn with_rests(&self, formula: &Formula) -> Formula {
         let lone = |symbol: SymbolId| {
             let joint = self.joints.get(&symbol)?;

@@ -1,67 +1,67 @@
-//! Torques that one link has by its own motion: of the spring and the friction in its pivot, and
-//! of drag against the ground.
+//! Torques that depend on the motion of one joint: the spring and the friction in its pivot, and
+//! the link's drag against the ground.
 
 use super::algebra::Formula;
 use super::derivation::Derivation;
 use super::expression::{Expr, Role, SymbolId};
 use super::laws::{dissipated, stored};
-use crate::scene::FrictionPlace;
+use crate::scene::FrictionContact;
 
 /// Symbols of the torques of a link.
 #[derive(Clone, Debug, PartialEq)]
 pub struct JointSymbols {
-    /// Stiffness κ and rest angle ρ of the spring, friction c in the pivot, drag k.
+    /// Constants: stiffness κ and rest angle ρ of the spring, friction c in the pivot, drag k.
     pub constants: [SymbolId; 4],
-    /// Angle and angular velocity against the parent.
+    /// Angle and angular velocity relative to the parent.
     pub relative: [SymbolId; 2],
     /// Torques D of friction that is not viscous, in the pivot and against the ground.
     pub braking: [SymbolId; 2],
 }
 
-/// Torques of a link, and the energies behind them.
+/// Torques of a link, and the strain of its spring.
 #[derive(Clone, Debug, PartialEq)]
 pub struct JointForces {
     /// Symbols of the torques.
     pub symbols: JointSymbols,
-    /// Strain of the spring.
+    /// Strain of the spring: relative angle minus rest angle.
     pub strain: Expr,
-    /// Torque of the spring on the parent.
+    /// Torque that the spring exerts on the parent.
     pub spring: Expr,
-    /// Torque of friction on the parent.
+    /// Torque that friction exerts on the parent.
     pub friction: Expr,
-    /// Torque of drag on the ground.
+    /// Torque that drag exerts on the ground.
     pub drag: Expr,
 }
 
 impl JointForces {
-    /// Strain and torques.
+    /// Returns the strain and the torques.
     pub fn all(&self) -> [&Expr; 4] {
         [&self.strain, &self.spring, &self.friction, &self.drag]
     }
 }
 
-/// The same while it is derived.
+/// Torques of a link during the derivation.
 pub(super) struct DerivedForces {
     pub(super) symbols: JointSymbols,
     strain: Formula,
-    /// Energy of the spring; zero where no link has one.
+    /// Energy of the spring; zero if no link has one.
     pub(super) stored: Formula,
     spring: Formula,
     friction: Formula,
     drag: Formula,
-    /// Power that friction and drag take.
+    /// Power dissipated by friction and drag.
     pub(super) loss: Formula,
 }
 
 impl Derivation<'_> {
-    /// Derives the torques of a link that turns at `omega`.
+    /// Derives the torques of a link with the angular velocity `omega`.
     pub(super) fn joint_forces(&mut self, omega: SymbolId) -> DerivedForces {
         let symbols = self.joint_symbols();
         let symbol = Formula::symbol;
         let [stiffness, rest, friction, drag] = symbols.constants.map(symbol);
         let [angle, rate] = symbols.relative;
         let rates = [rate, omega];
-        let braking = FrictionPlace::ALL.map(|place| {
+        let braking = FrictionContact::ALL.map(|place| {
             let mut links = self.scene.links.iter();
             match links.any(|link| !link.passive.law(place).is_none()) {
                 true => symbol(symbols.braking[place as usize]),
@@ -111,7 +111,7 @@ impl Derivation<'_> {
         }
     }
 
-    /// The torques as plain data.
+    /// Returns the torques as plain data.
     pub(super) fn plain_forces(&self, forces: &DerivedForces) -> JointForces {
         let DerivedForces {
             symbols,

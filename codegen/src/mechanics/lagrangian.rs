@@ -1,5 +1,5 @@
-//! Derivation of the Lagrangian and the Euler–Lagrange equations from positions
-//! (physics §1), in the absolute angles.
+//! Derivation of the Lagrangian and of the Euler–Lagrange equations from positions (physics §1), in
+//! absolute angles.
 
 use super::algebra::Formula;
 use super::derivation::Derivation;
@@ -13,9 +13,9 @@ use crate::scene::{Link, LinkId, Offset, Quantity, QuantityAtom};
 use std::convert::Infallible;
 
 impl Derivation<'_> {
-    /// The Lagrangian in absolute angles: the mass matrix from the velocities
-    /// of the centres of mass, the potential energy from their heights, the
-    /// dissipation function from the joints.
+    /// Derives the Lagrangian in absolute angles: the mass matrix from the velocities of the
+    /// centres of mass, the potential energy from their heights, and the dissipation function from
+    /// the joints.
     pub(super) fn absolute_frame(&mut self) -> DerivedFrame {
         let names: Vec<String> = self.scene.links.iter().map(|l| l.name.clone()).collect();
         let coordinates: Vec<SymbolId> = names.iter().map(|n| self.coordinate(n)).collect();
@@ -45,23 +45,23 @@ impl Derivation<'_> {
         }
     }
 
-    /// Row of `∂(x, y)/∂θ_i` of the point `offset` on link `i`:
-    /// x = a sin θ + b cos θ, y = −a cos θ + b sin θ.
+    /// Returns the row `∂(x, y)/∂θ_i` of the point `offset` = (a, b) on link `i`: x = a sin θ + b
+    /// cos θ, y = −a cos θ + b sin θ.
     fn lever(&self, offset: &Offset, angle: SymbolId) -> (Formula, Formula) {
         let (along, lateral) = (self.quantity(&offset.along), self.quantity(&offset.lateral));
         let [x, y] = self.point_at(&along, &lateral, angle);
         (self.partial(&x, angle), self.partial(&y, angle))
     }
 
-    /// Points of each link at which it carries weight, with that weight: its centre of
-    /// mass, and the pivots of its children with all that hangs from them.
+    /// Returns, for each link, the points at which it carries weight, with that weight: its centre
+    /// of mass, and the pivots of its children with the weight of their subtrees.
     fn carried(&self, weight: impl Fn(&Self, &Link) -> Formula) -> Vec<Vec<(Formula, &Offset)>> {
         let links = &self.scene.links;
         let mut carried: Vec<Vec<(Formula, &Offset)>> = links
             .iter()
             .map(|link| vec![(weight(self, link), &link.com)])
             .collect();
-        // Parents come before their children.
+        // Parents come before their children, so the reverse order visits children first.
         for (index, link) in links.iter().enumerate().rev() {
             if let Some(LinkId(parent)) = link.parent {
                 let weights = carried[index].iter().map(|(weight, _)| weight.clone());
@@ -72,11 +72,10 @@ impl Derivation<'_> {
         carried
     }
 
-    /// Second derivatives of K in the angular velocities. The velocity of a
-    /// centre of mass is linear in them, so that
-    /// ∂²K/∂ω_i∂ω_j = Σ_l m_l ∂ṙ_l/∂ω_i · ∂ṙ_l/∂ω_j (+ I_l for i = j = l),
-    /// summed over the links l that both i and j carry. All of them hang from one point
-    /// of an ancestor j of i, whose ∂ṙ/∂ω_j stands before the sum.
+    /// Returns the second derivatives of the kinetic energy K in the angular velocities. The
+    /// velocity of a centre of mass is linear in them, so that ∂²K/∂ω_i∂ω_j = Σ_l m_l ∂ṙ_l/∂ω_i ·
+    /// ∂ṙ_l/∂ω_j (+ I_l for i = j = l), summed over the links l that both i and j carry. If j is an
+    /// ancestor of i, all of these hang from one point of j, whose ∂ṙ/∂ω_j is a common factor.
     fn mass_matrix(&mut self, angles: &[SymbolId]) -> MassMatrix {
         let mut sums: MassMatrix = MassMatrix::default();
         let carried = self.carried(|derivation, link| derivation.quantity(&link.mass));
@@ -112,10 +111,9 @@ impl Derivation<'_> {
         sums.map(|row, column, sum| self.named_entry(angles, row, column, &sum))
     }
 
-    /// Reads the constants out of one entry and names them. A diagonal entry
-    /// is A (cos² + sin²), an entry between ancestor j and descendant i is
-    /// A cos(θ_i − θ_j) + B sin(θ_i − θ_j): that the polynomial has this form
-    /// is checked coefficient by coefficient.
+    /// Finds the constants in one entry of the mass matrix and names them. A diagonal entry is A
+    /// (cos² + sin²); an entry between ancestor j and descendant i is A cos(θ_i − θ_j) + B sin(θ_i
+    /// − θ_j). Checks, coefficient by coefficient, that the entry is a polynomial of this form.
     fn named_entry(
         &mut self,
         angles: &[SymbolId],
@@ -142,7 +140,7 @@ impl Derivation<'_> {
             );
             let value = (&square + &coefficient(0, 0)).expand();
             let meaning = format!(
-                "moment of inertia of `{orbit_i}` about its pivot, with what hangs from it as points at their pivots"
+                "moment of inertia of `{orbit_i}` about its pivot, with what hangs from it as point masses at their pivots"
             );
             return self.lettered(letters::INERTIA, &[&orbit_i], &meaning, value);
         }
@@ -171,7 +169,7 @@ impl Derivation<'_> {
         &(&a * &Formula::symbol(cos)) + &(&b * &Formula::symbol(sin))
     }
 
-    /// Σ weight_l (height of l), in cosines and sines.
+    /// Returns Σ weight_l (height of link l), in cosines and sines.
     pub(super) fn heights(
         &self,
         angles: &[SymbolId],
@@ -190,7 +188,7 @@ impl Derivation<'_> {
         heights.into_iter().sum::<Formula>().expand()
     }
 
-    /// U = g Σ m_l (height of l), zero where all angles are zero.
+    /// Returns the potential energy U = g Σ m_l (height of link l), zero if all angles are zero.
     fn potential(&mut self, angles: &[SymbolId]) -> Formula {
         let total = self.heights(angles, |derivation, link| {
             &derivation.quantity(&derivation.scene.gravity) * &derivation.quantity(&link.mass)
@@ -205,17 +203,17 @@ impl Derivation<'_> {
             let along = self.lettered(letters::GRAVITY, &[&orbit], &meaning, along);
             let meaning = format!("weight that `{orbit}` carries times its lateral lever");
             let lateral = self.lettered(letters::LATERAL_GRAVITY, &[&orbit], &meaning, lateral);
-            // Kept as G (1 − cos θ): multiplied out it would lose digits.
+            // Kept as G (1 − cos θ): multiplied out, it would lose digits at small θ.
             potential.push(&along * &(&Formula::integer(1) - &Formula::symbol(cos)));
             potential.push(&lateral * &Formula::symbol(sin));
         }
         potential.into_iter().sum()
     }
 
-    /// Rayleigh's dissipation function R = ½ Σ c_i (ω_i − ω_π(i))² + ½ Σ k_i ω_i²
-    /// of friction in the pivots and drag against the ground, and ½ Σ c (ω_a − ω_b)² of
-    /// friction between links, so that the generalized torque of all is −∂R/∂ω_i, term by
-    /// term.
+    /// Returns the terms of Rayleigh's dissipation function R = ½ Σ c_i (ω_i − ω_π(i))² + ½ Σ k_i
+    /// ω_i² of friction in the pivots and drag against the ground, and ½ Σ c (ω_a − ω_b)² of
+    /// friction between links; π(i) is the parent of i. The generalized torque of all friction is
+    /// −∂R/∂ω_i.
     fn dissipation(&mut self, velocities: &[SymbolId]) -> Vec<Formula> {
         let (scene, mut terms) = (self.scene, Vec::new());
         for element in scene.force_elements() {
@@ -237,8 +235,8 @@ impl Derivation<'_> {
         terms
     }
 
-    /// Energy of the torsion springs, ½ Σ κ_i (θ_i − θ_π(i) − ρ_i)² and, between links,
-    /// ½ Σ κ (θ_a − θ_b − ρ)².
+    /// Returns the energy of the torsion springs: ½ Σ κ_i (θ_i − θ_π(i) − ρ_i)² in the pivots, with
+    /// the parent π(i), and ½ Σ κ (θ_a − θ_b − ρ)² between links.
     fn springs(&mut self, angles: &[SymbolId]) -> Formula {
         let (scene, mut terms) = (self.scene, Vec::new());
         for element in scene.force_elements() {
@@ -266,7 +264,7 @@ impl Derivation<'_> {
         self.scene.orbits[orbit.0].name.clone()
     }
 
-    /// A quantity of the description as a formula in its parameters.
+    /// Converts a quantity of the description to a formula in its parameters.
     pub(super) fn quantity(&self, quantity: &Quantity) -> Formula {
         let atom = |atom: &QuantityAtom| match atom {
             QuantityAtom::Exact(number) => Formula::number(number),
@@ -276,8 +274,8 @@ impl Derivation<'_> {
         formula
     }
 
-    /// A named constant of the model with its value; zero stays zero and is
-    /// not named, so that what a scene lacks leaves no trace.
+    /// Names a constant of the model and returns its symbol. Zero stays zero and gets no name, so
+    /// that the code contains nothing that does not occur in the scene.
     pub(super) fn constant(
         &mut self,
         code: &str,

@@ -1,10 +1,11 @@
-//! Energies and losses of one link, each law once: of whole trees and of one link in loops
-//! they are sums of these.
+//! Energy and dissipation of one element, each law in one function. Whole trees, and single links
+//! of trees in loops, use sums of these.
 
 use super::algebra::Formula;
 use super::link::{Plane, dot};
 
-/// Kinetic energy ½ (m **V**² + I ω²) of a body with the velocity **V** of its centre of mass.
+/// Returns the kinetic energy ½ (m **V**² + I ω²) of a body with the velocity **V** of its centre
+/// of mass.
 pub(super) fn kinetic(
     [mass, inertia]: [&Formula; 2],
     velocity: &Plane,
@@ -14,18 +15,19 @@ pub(super) fn kinetic(
     half(&(&moved + &(inertia * &omega.pow(2))))
 }
 
-/// Energy ½ κ ε² of a torsion spring.
+/// Returns the energy ½ κ ε² of a torsion spring with the strain ε.
 pub(super) fn stored(stiffness: &Formula, strain: &Formula) -> Formula {
     half(&(stiffness * &strain.pow(2)))
 }
 
-/// Term ½ c w² of Rayleigh's dissipation function: viscous friction at the rate w.
+/// Returns the term ½ c w² of Rayleigh's dissipation function, for viscous friction c at the rate
+/// w.
 pub(super) fn dissipated(friction: &Formula, rate: &Formula) -> Formula {
     half(&(friction * &rate.pow(2)))
 }
 
-/// Energy A/ℓⁿ of a force by a power of the distance, and its push over the distance, n A/ℓⁿ⁺²,
-/// given the powers of ℓ.
+/// Returns the energy A/ℓⁿ of a power-law force, and its push divided by the distance, n A/ℓⁿ⁺²,
+/// given powers of the distance ℓ.
 pub(super) fn inverse_power(
     strength: &Formula,
     exponent: i32,

@@ -4,7 +4,7 @@ use super::algebra::Formula;
 use super::derivation::Derivation;
 use super::print::Index;
 
-/// A letter of constants, in code, in text and in LaTeX, and their unit.
+/// A letter for constants, with its spellings in code, text and LaTeX, and the unit.
 #[derive(Clone, Copy)]
 pub(super) struct Letter {
     pub(super) code: &'static str,
@@ -48,14 +48,14 @@ pub(super) const RESTORING: Letter = letter("restoring", "Λ", "\\Lambda", "J");
 pub(super) const REST_LENGTH: Letter = letter("rest_length", "L", "L", "m");
 pub(super) const STRAIGHT_FRICTION: Letter = letter("straight_friction", "γ", "\\gamma", "N s/m");
 
-/// The strength of a repulsion, whose unit depends on the exponent.
+/// Returns the letter for the strength of a repulsion; its unit depends on the exponent.
 pub(super) const fn repulsion(unit: &'static str) -> Letter {
     letter("repulsion", "A", "A", unit)
 }
 
 impl Derivation<'_> {
-    /// A constant of an orbit, of one and another above it, or of what acts between links,
-    /// named by a letter.
+    /// Names a constant by a letter and the names of its owners: an orbit (set of equal copies of
+    /// one link), an orbit and one above it, or the links that a spring-damper connects.
     pub(super) fn lettered(
         &mut self,
         letter: Letter,

@@ -1,11 +1,13 @@
-//! Energies that lines store (physics §19), and their pulls.
+//! Potential energy of straight lines between points (physics §19), and the forces along them.
 //!
 //! ```text
 //! U = ½ K s² + V      s = ℓ − L      V = A/ℓⁿ
 //! ```
 //!
-//! A spring without length at rest has U = K q with q = ½ Δ·Δ, whose slopes are N_i: no root. The
-//! slopes of V are −f N_i with f = n A/ℓⁿ⁺²: no root where n is even.
+//! K is the stiffness, L the rest length, ℓ the length |Δ|, A and n strength and exponent of a
+//! repulsion. A spring with zero rest length has U = K q with q = ½ Δ·Δ, whose slopes are N_i =
+//! Δ·∂Δ/∂θ_i, without a square root. The slopes of V are −f N_i with f = n A/ℓⁿ⁺², without a square
+//! root if n is even.
 
 use super::algebra::Formula;
 use super::derivation::Derivation;
@@ -15,17 +17,17 @@ use super::letters;
 use super::meaning::{DerivedLine, LineMeaning};
 use crate::scene::{DescribedLinePotential, Quantity, strength_unit};
 
-/// A term of the energy that a line stores.
+/// A term of the potential energy of a line.
 struct LineTerm {
     energy: Formula,
-    /// The pull, and slopes of the length or of what depends on it: their products are the slopes
-    /// of the energy.
+    /// Factors of the slopes of the energy by the angles: slope = pull times the slope of the
+    /// length, or of the quantity that the energy depends on.
     pull: Formula,
     slopes: Vec<SymbolId>,
 }
 
 impl Derivation<'_> {
-    /// The energies of a line, and its pulls by them.
+    /// Derives the energy of a line, and the factors (pulls) of the slopes of its terms.
     pub(super) fn pulls_of_potentials(&mut self, line: &mut DerivedLine) {
         for potential in &self.scene.translational[line.line.spring_damper].potentials {
             let LineTerm {
@@ -45,7 +47,7 @@ impl Derivation<'_> {
         }
     }
 
-    /// ½ K s², or K q.
+    /// Derives the term ½ K s², or K q for zero rest length.
     fn spring_of_line(
         &mut self,
         line: &mut DerivedLine,
@@ -94,7 +96,7 @@ impl Derivation<'_> {
         }
     }
 
-    /// V = A/ℓⁿ, with ∂V/∂θ_i = −f N_i and ∂f/∂θ_i = −(n + 2) f N_i/ℓ².
+    /// Derives the term V = A/ℓⁿ, with ∂V/∂θ_i = −f N_i and ∂f/∂θ_i = −(n + 2) f N_i/ℓ².
     fn inverse_power_of_line(
         &mut self,
         line: &mut DerivedLine,
@@ -109,7 +111,7 @@ impl Derivation<'_> {
         let (constants, value) = (scene.straight_names(index), self.quantity(strength));
         let letter = letters::repulsion(strength_unit(exponent));
         let strength = self.lettered(letter, &constants, &meaning, value);
-        // Powers of the square need no root.
+        // Even powers of ℓ are powers of ℓ² and need no square root.
         let (base, degree) = match exponent % 2 {
             0 => (square_of_length(line), 2),
             _ => (Formula::symbol(self.length(line).0), 1),
@@ -143,7 +145,7 @@ impl Derivation<'_> {
     }
 }
 
-/// ℓ² in the components.
+/// Returns ℓ² in the components of the line.
 pub(super) fn square_of_length(line: &DerivedLine) -> Formula {
     let [dx, dy] = line
         .offset

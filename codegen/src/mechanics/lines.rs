@@ -1,5 +1,5 @@
-//! Lines of straight springs, repulsions and dampers (physics §19): their length, its slopes and its
-//! rate are symbols of their own, so that no small stretch is formed of large products.
+//! Lines of straight springs, repulsions and dampers (physics §19). The length, its slopes and its
+//! rate are separate symbols, so that a small stretch is never a difference of large products.
 //!
 //! ```text
 //! Δ = d₀ + Σ R(θ_i) r_i      N_i = Δ·∂Δ/∂θ_i      ℓ = |Δ|      J_i = ∂ℓ/∂θ_i = N_i/ℓ
@@ -18,18 +18,18 @@ use crate::scene::{
 };
 use std::collections::BTreeMap;
 
-/// Torque by which a line pulls a link back, of its spring and of its damper.
+/// Torque of a line's spring and damper on one link.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LineTorque {
-    /// The link.
+    /// The link on which the torque acts.
     pub link: LinkId,
-    /// The torque, to be subtracted.
+    /// Torque, in N m, with the opposite sign: the equations subtract it.
     pub torque: Expr,
 }
 
 impl Scene {
-    /// Names of what a straight spring is between, by which its constants are called; a number
-    /// besides where one before is between the same.
+    /// Returns the names of the connected links, which become part of the names of the constants. A
+    /// number follows if an earlier straight spring connects the same links.
     pub(super) fn straight_names(&self, index: usize) -> Vec<String> {
         let name = |LinkId(link): &LinkId| self.links[*link].name.clone();
         let ends = |own: &DescribedTranslationalSpringDamper| match &own.ends {
@@ -46,10 +46,10 @@ impl Scene {
     }
 }
 
-/// The ground in names.
+/// Word for the ground in names.
 const GROUND: &str = "ground";
 
-/// Names, and a number behind those that are there already.
+/// Appends a number to the names if `before` earlier elements have the same ones.
 fn numbered(mut names: Vec<String>, before: usize) -> Vec<String> {
     if before > 0 {
         names.push((before + 1).to_string());
@@ -58,7 +58,8 @@ fn numbered(mut names: Vec<String>, before: usize) -> Vec<String> {
 }
 
 impl Derivation<'_> {
-    /// Names the lines of all straight springs, and what depends on them.
+    /// Creates the symbols of the lines of all straight springs and of the quantities that depend
+    /// on them.
     pub(super) fn prepare_lines(&mut self, angles: &[SymbolId], velocities: &[SymbolId]) {
         for line in self.scene.lines() {
             let mut names: Vec<String> = line
@@ -82,7 +83,7 @@ impl Derivation<'_> {
         }
     }
 
-    /// A symbol of a line with its meaning.
+    /// Creates a symbol of a line with its definition.
     pub(super) fn line_symbol(
         &mut self,
         letters: [&str; 3],
@@ -100,7 +101,7 @@ impl Derivation<'_> {
         symbol
     }
 
-    /// Δ and N_i.
+    /// Creates the vector Δ of a line and its moments N_i = Δ·∂Δ/∂θ_i.
     fn line(&mut self, line: SpringLine, names: Vec<String>, angles: &[SymbolId]) -> DerivedLine {
         let coordinates: Vec<SymbolId> = line.arms.iter().map(|(link, _)| angles[link.0]).collect();
         let what = self.scene.translational[line.spring_damper].what.clone();
@@ -140,7 +141,7 @@ impl Derivation<'_> {
             .iter()
             .zip(&arms)
             .map(|((LinkId(link), _), [x, y])| {
-                // ∂Δ/∂θ_i is the arm turned by a right angle.
+                // ∂Δ/∂θ_i is the arm rotated by a right angle.
                 let moment = LineMeaning::Formula(&(&dy * x) - &(&dx * y));
                 let of_link = with(&names, *link, self.scene);
                 self.line_symbol(["line_moment", "N", "N"], &of_link, moment, &coordinates)
@@ -157,7 +158,7 @@ impl Derivation<'_> {
         }
     }
 
-    /// ℓ and J_i, named when they are asked for first.
+    /// Returns the symbols of the length ℓ and its slopes J_i; creates them at the first call.
     pub(super) fn length(&mut self, line: &mut DerivedLine) -> (SymbolId, Vec<SymbolId>) {
         if let Some(known) = &line.length {
             return known.clone();
@@ -196,7 +197,8 @@ impl Derivation<'_> {
         (length, slopes)
     }
 
-    /// Notes the derivatives of a symbol in other symbols than those of its meaning.
+    /// Records the derivatives of a symbol, if they are expressed by other symbols than those in
+    /// its definition.
     pub(super) fn give_slopes(
         &mut self,
         symbol: SymbolId,
@@ -234,7 +236,7 @@ impl Derivation<'_> {
         line.pulls.push((&friction * &rate, slopes));
     }
 
-    /// The torques of all lines as plain data.
+    /// Returns the torques of all lines as plain data.
     pub(super) fn line_torques(&self) -> Vec<LineTorque> {
         let mut torques = Vec::new();
         for DerivedLine { line, pulls, .. } in &self.lines.list {
@@ -251,7 +253,7 @@ impl Derivation<'_> {
         torques
     }
 
-    /// The meaning of all symbols of lines as plain data.
+    /// Returns the definitions of all symbols of lines as plain data.
     pub(super) fn plain_lines(&self) -> BTreeMap<SymbolId, LineMeaning> {
         let plain = |meaning: &LineMeaning<Formula>| match meaning {
             LineMeaning::Formula(formula) => LineMeaning::Formula(self.expr(formula)),
@@ -267,7 +269,7 @@ impl Derivation<'_> {
     }
 }
 
-/// Names with that of a link behind them.
+/// Returns the names, followed by the name of a link.
 fn with(names: &[String], link: usize, scene: &Scene) -> Vec<String> {
     let link = std::iter::once(scene.links[link].name.clone());
     names.iter().cloned().chain(link).collect()

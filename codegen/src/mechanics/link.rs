@@ -1,93 +1,93 @@
-//! Balance of force and torque of one link whose children answer with unknown
-//! articulated inertia and bias force (physics §10): linear in its own angular
-//! acceleration and its pivot's, so that the coefficients are read off.
+//! Balance of force and torque of one link (physics §10). The articulated inertia and the bias
+//! force of its children are unknowns. The balance is linear in the link's angular acceleration and
+//! in the acceleration of its pivot, so that the coefficients can be read off.
 //!
-//! A subtree on the pivot (ℓ, w) answers the acceleration a of that pivot with the
-//! force σ a + γ − N a. The mass σ is any constant: what of the subtree's mass counts
-//! in the constants of this link. Articulated inertia is σ 1 − N, bias force γ.
+//! A subtree on the pivot (ℓ, w) responds to the pivot's acceleration a with the force σ a + γ − N
+//! a. The mass σ can be chosen: it is the part of the subtree's mass that this link's constants
+//! include. The articulated inertia is σ 1 − N, the bias force γ.
 
 use super::algebra::Formula;
 use super::derivation::Derivation;
 use super::expression::{Expr, NamedFormula, Role, SymbolId, Symbols};
 
-/// Constants of a link with the mass σ on its pivot (ℓ, w).
+/// Constants of a link with the mass σ of its subtrees at the pivot (ℓ, w).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Composite {
-    /// M, about the link's pivot.
+    /// Moment of inertia M about the link's pivot.
     pub inertia: Expr,
-    /// First moment along and across the link.
+    /// First moment of mass along and across the link.
     pub moment: [Expr; 2],
-    /// S.
+    /// Total mass S of the link and the subtrees that count as point masses.
     pub mass: Expr,
 }
 
 /// Symbols in the balance of a link.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LinkSymbols {
-    /// Mass m, moment of inertia I about the centre of mass.
+    /// Mass m, and moment of inertia I about the centre of mass.
     pub body: [SymbolId; 2],
-    /// Centre of mass (d, e).
+    /// Position (d, e) of the centre of mass, relative to the link's pivot.
     pub com: [SymbolId; 2],
-    /// The subtrees' mass σ.
+    /// Mass σ of the subtrees that count as point masses.
     pub counted: SymbolId,
-    /// The pivot (ℓ, w) of the subtrees.
+    /// Pivot (ℓ, w) of the subtrees.
     pub place: [SymbolId; 2],
-    /// M, h, its lateral part and S: names for [`Composite`].
+    /// Symbols of M, h, the lateral part of h and S: the constants in [`Composite`].
     pub composite: [SymbolId; 4],
-    /// Angle.
+    /// Angle of the link.
     pub angle: SymbolId,
-    /// Angular velocity.
+    /// Angular velocity of the link.
     pub omega: SymbolId,
     /// Cosine and sine of the angle.
     pub direction: [SymbolId; 2],
-    /// Components xx, xy, yy of N.
+    /// Components xx, xy, yy of the matrix N of the subtrees.
     pub deficit: [SymbolId; 3],
-    /// γ of the subtrees.
+    /// Bias force γ of the subtrees.
     pub bias_force: [SymbolId; 2],
-    /// Torques on the link.
+    /// Sum of the torques on the link.
     pub torque: SymbolId,
-    /// The acceleration of the pivot.
+    /// Acceleration of the link's pivot.
     pub pivot: [SymbolId; 2],
-    /// The link's own angular acceleration.
+    /// Angular acceleration of the link.
     pub acceleration: SymbolId,
-    /// J, b, κ and f: names for what is read off.
+    /// Symbol J of the coefficient of the angular acceleration in the torque.
     pub joint_inertia: SymbolId,
-    /// b.
+    /// Symbol b of the coefficient of the pivot's acceleration in the torque.
     pub first_moment: [SymbolId; 2],
-    /// κ.
+    /// Symbol κ of the remaining torque.
     pub bias: SymbolId,
-    /// f.
+    /// Symbol f of the remaining force.
     pub held_force: [SymbolId; 2],
 }
 
-/// The balance of one link: J ω̇ + b·a + κ = 0, and the force S a + b ω̇ + f − N a on
-/// the subtree.
+/// Balance of one link: the torque J ω̇ + b·a + κ = 0, and the force S a + b ω̇ + f − N a on the
+/// subtree. Here a is the acceleration of the pivot, and ω̇ the angular acceleration.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LinkBalance {
-    /// Symbols of the link.
+    /// Symbols from which the balance is formed.
     pub symbols: LinkSymbols,
     /// Constants of the link.
     pub composite: Composite,
     /// Coefficient J of ω̇ in the torque.
     pub joint_inertia: Expr,
-    /// Coefficient b of a in the torque and of ω̇ in the force.
+    /// Coefficient b of a in the torque, and of ω̇ in the force.
     pub first_moment: [Expr; 2],
-    /// The rest κ of the torque.
+    /// Torque κ at zero accelerations.
     pub bias: Expr,
-    /// The rest f of the force.
+    /// Force f at zero accelerations.
     pub held_force: [Expr; 2],
-    /// N of the subtree that the link carries, with mass S.
+    /// Matrix N of the subtree that begins with this link, for the mass S.
     pub deficit: [Expr; 3],
-    /// γ of it.
+    /// Bias force γ of that subtree.
     pub bias_force: [Expr; 2],
-    /// ω̇.
+    /// Solution of the torque balance for the angular acceleration ω̇.
     pub solution: Expr,
-    /// The acceleration of the children's pivot.
+    /// Acceleration of the pivot of the children.
     pub child_pivot: [Expr; 2],
 }
 
 impl LinkBalance {
-    /// The balance as formulas, in the order in which they are used.
+    /// Returns the balance as formulas, in the order of their use.
     pub fn formulas(&self, symbols: &Symbols) -> Vec<NamedFormula> {
         let named = |id: SymbolId, right: &Expr| NamedFormula::of_symbol(symbols, id, right);
         let primed = |id: SymbolId, right: &Expr| {
@@ -135,12 +135,12 @@ impl LinkBalance {
     }
 }
 
-/// The letter with a prime: the same of the subtree, or of the children.
+/// Returns the letter with a prime, which marks a quantity of the whole subtree or of the children.
 fn prime(name: &str) -> String {
     name.replacen('_', "'_", 1)
 }
 
-/// A vector.
+/// A vector in the plane, (x, y).
 pub(super) type Plane = [Formula; 2];
 
 pub(super) fn plus(a: &Plane, b: &Plane) -> Plane {
@@ -185,9 +185,13 @@ impl Derivation<'_> {
         let first_moment = [derived("b_x", "b_x"), derived("b_y", "b_y")];
         let held_force = [derived("f_x", "f_x"), derived("f_y", "f_y")];
         let bias = derived("κ", "\\kappa");
-        let mut moved = |text: &str, latex: &str| letter(Role::Acceleration, text, latex);
-        let pivot = [moved("a_x,i", "a_{x,i}"), moved("a_y,i", "a_{y,i}")];
-        let acceleration = moved("α_i", "\\alpha_i");
+        let mut acceleration_letter =
+            |text: &str, latex: &str| letter(Role::Acceleration, text, latex);
+        let pivot = [
+            acceleration_letter("a_x,i", "a_{x,i}"),
+            acceleration_letter("a_y,i", "a_{y,i}"),
+        ];
+        let acceleration = acceleration_letter("α_i", "\\alpha_i");
         LinkSymbols {
             body,
             com,
@@ -209,7 +213,7 @@ impl Derivation<'_> {
         }
     }
 
-    /// Derives the balance.
+    /// Derives the balance of torque and force of one link.
     pub(super) fn link_balance(&mut self) -> LinkBalance {
         let s = self.link_symbols();
         let lateral = self.scene.is_lateral();
@@ -218,8 +222,9 @@ impl Derivation<'_> {
         let [mass, inertia] = s.body.map(symbol);
         let counted = symbol(s.counted);
         let pivot = s.pivot.map(symbol);
-        let (com, com_lever) = self.moved(&s, [symbol(s.com[0]), across(s.com[1])]);
-        let (place, place_lever) = self.moved(&s, [symbol(s.place[0]), across(s.place[1])]);
+        let (com, com_lever) = self.point_derivatives(&s, [symbol(s.com[0]), across(s.com[1])]);
+        let (place, place_lever) =
+            self.point_derivatives(&s, [symbol(s.place[0]), across(s.place[1])]);
         let com = plus(&pivot, &com);
         let place = plus(&pivot, &place);
         let [xx, xy, yy] = s.deficit.map(symbol);
@@ -240,10 +245,11 @@ impl Derivation<'_> {
         self.read_off(s, &torque, &force, &place)
     }
 
-    /// The acceleration of a point of the link beside its pivot's, and ∂r/∂θ.
-    fn moved(&self, s: &LinkSymbols, point: Plane) -> (Plane, Plane) {
+    /// Returns the acceleration of a point of the link relative to its pivot, and the derivative
+    /// ∂r/∂θ of its position.
+    fn point_derivatives(&self, s: &LinkSymbols, point: Plane) -> (Plane, Plane) {
         let lever = self.link_lever(s, point);
-        let bend = self.turned(s, &lever);
+        let bend = self.angle_derivative(s, &lever);
         let square = Formula::symbol(s.omega).pow(2);
         let acceleration = plus(
             &times(&Formula::symbol(s.acceleration), &lever),
@@ -273,7 +279,7 @@ impl Derivation<'_> {
             first_moment == force.each_ref().map(|component| part(component, turned)),
             "the balance of one link is symmetric"
         );
-        // What is left without subtrees' answers are the constants.
+        // Without the responses of subtrees only the link's constants remain.
         let answers = s.deficit.iter().chain(&s.bias_force);
         let none: Vec<(SymbolId, Formula)> = answers.map(|&id| (id, Formula::zero())).collect();
         let bare = |formula: &Formula| formula.substitute(&none).expand();
@@ -321,7 +327,7 @@ impl Derivation<'_> {
         }
     }
 
-    /// The formula with 1 − cos² for sin².
+    /// Returns the formula with sin² of the link's angle replaced by 1 − cos².
     fn circular(&self, s: &LinkSymbols, formula: &Formula) -> Formula {
         let [cos, sin] = s.direction;
         let (one, sine) = (Formula::integer(1), Formula::symbol(sin));
@@ -340,8 +346,8 @@ impl Derivation<'_> {
         terms.sum::<Formula>().expand()
     }
 
-    /// A formula written in M, h and the lateral moment: each of its coefficients in ω
-    /// and the angle's cosine and sine is one of them.
+    /// Rewrites a formula in terms of M, h and the lateral moment: each coefficient of the powers
+    /// of ω and of the angle's cosine and sine is one of them.
     fn in_composites(
         &self,
         s: &LinkSymbols,

@@ -1,4 +1,4 @@
-//! Links that are not parent and child, with a spring and friction between them.
+//! Springs and friction between links that are not parent and child.
 
 use super::algebra::Formula;
 use super::derivation::Derivation;
@@ -7,22 +7,22 @@ use super::joint::JointQuantity;
 use super::meaning::{JointDifference, PairDifferences};
 use crate::scene::{Coordinate, LinkId, LinkPair, PassiveTorques};
 
-/// A spring and friction between two links as the articulated recursion and the arithmetic on
-/// means and differences take them.
+/// A spring and friction between two links, in the form that the articulated-body recursion and the
+/// computation by means and differences use.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PairElement<V = Expr> {
-    /// The links.
+    /// The two links.
     pub pair: LinkPair,
-    /// θ_a − θ_b − ρ, zero without a spring.
+    /// Relative angle minus rest angle, θ_a − θ_b − ρ; zero without a spring.
     pub strain: V,
-    /// ω_a − ω_b, zero without viscous friction.
+    /// Relative rate ω_a − ω_b; zero without viscous friction.
     pub rate: V,
-    /// Spring and friction.
+    /// Coefficients of spring and friction.
     pub passive: PassiveTorques<V>,
 }
 
 impl Derivation<'_> {
-    /// The difference of two links in the symbols of all links, as a symbol.
+    /// Returns the difference of two links' angles or rates as a symbol.
     pub(super) fn pair_difference(
         &mut self,
         quantity: JointQuantity,
@@ -36,8 +36,9 @@ impl Derivation<'_> {
         self.joint(quantity, &names, difference)
     }
 
-    /// What stands for the differences of pairs in symmetric coordinates. Within the copies of
-    /// one group that is a sum of their differences, written out, so that what cancels does.
+    /// Returns the replacements for the differences of pairs in symmetric coordinates. Within the
+    /// copies of one group they are sums of the copies' differences, written out so that terms can
+    /// cancel.
     pub(super) fn symmetric_pairs(
         &mut self,
         coordinates: &[Coordinate],
@@ -86,7 +87,7 @@ impl Derivation<'_> {
         replacements
     }
 
-    /// Returns true if a symbol is the difference of a pair.
+    /// Returns true if a symbol is the difference of a pair of links.
     pub(super) fn is_of_pair(&self, symbol: SymbolId) -> bool {
         let mut differences = self.pairs.iter().flat_map(|own| [&own.angle, &own.rate]);
         differences.any(|own| {
@@ -95,7 +96,7 @@ impl Derivation<'_> {
         })
     }
 
-    /// All pairs as plain data.
+    /// Returns all pairs as plain data.
     pub(super) fn plain_pairs(&self) -> Vec<PairElement> {
         let difference = |own: &Option<Formula>| {
             own.as_ref()

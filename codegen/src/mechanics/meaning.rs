@@ -1,25 +1,26 @@
-//! Meanings of symbols in a derivation, beside constants and sines and cosines: functions of
-//! time, differences in joints, lines of straight springs, functions of whole expressions, braking torques.
+//! Definitions of symbols in a derivation, except constants, sines and cosines: functions of time,
+//! relative angles and rates, lines of straight springs, functions of whole expressions, and
+//! friction torques.
 
 use super::algebra::Formula;
 use super::expression::{Expr, SymbolId};
-use crate::scene::{FrictionPlace, Function, LinkId, LinkPair, SpringLine};
+use crate::scene::{FrictionContact, Function, LinkId, LinkPair, SpringLine};
 use std::collections::BTreeMap;
 
-/// Meaning of a symbol that depends on time alone.
+/// Definition of a symbol that depends only on time.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Temporal<F = Expr> {
-    /// Time itself, s.
+    /// Time, in s.
     Time,
     /// Sine of a function of time.
     Sin(F),
     /// Cosine of a function of time.
     Cos(F),
-    /// A function of time with a name.
+    /// A named function of time.
     Given(F),
 }
 
-/// Symbols that depend on time alone, while they are derived.
+/// Symbols that depend only on time, during the derivation.
 pub(super) struct DerivedDrive {
     pub(super) temporal: BTreeMap<SymbolId, Temporal<Formula>>,
     /// Sine and cosine of each argument.
@@ -29,7 +30,7 @@ pub(super) struct DerivedDrive {
     pub(super) friction: Formula,
 }
 
-/// A [`PivotMotion`] while it is derived.
+/// A [`PivotMotion`] during the derivation.
 pub(super) struct DerivedMotion {
     pub(super) name: &'static str,
     pub(super) position: Formula,
@@ -50,8 +51,9 @@ impl Default for DerivedDrive {
 }
 
 impl DerivedDrive {
-    /// Notes −2 R − Σ D w, given the terms of R and the products D w: left as squares, so
-    /// that no rounding turns its sign.
+    /// Records the power −2 R − Σ D w of friction, given the terms of Rayleigh's function R and the
+    /// products D w of torques and rates. The squares are not multiplied out, so that rounding
+    /// cannot change the sign of the power.
     pub(super) fn note_friction(&mut self, dissipation: &[Formula], work: &[Formula]) {
         let minus_two = Formula::integer(-2);
         let viscous = dissipation.iter().map(|term| &minus_two * term);
@@ -59,19 +61,20 @@ impl DerivedDrive {
     }
 }
 
-/// The difference of two links' angles, less the one at which their spring is at rest, or of
-/// their rates: of a link and its parent in a joint, of others between which something acts. Also
-/// the same in other coordinates, a sum of these.
+/// A relative quantity: the difference of two links' angles minus their spring's rest angle, or the
+/// difference of two rates. The links are a link and its parent, or two links that a spring-damper
+/// connects. In other coordinates it is a sum of these.
 #[derive(Clone, Debug, PartialEq)]
 pub struct JointDifference<F = Expr> {
-    /// Angles or rates with their weights. Of a joint the link's own comes first.
+    /// Angles or rates with their weights. In a joint the link's own symbol comes first.
     pub terms: Vec<(SymbolId, i64)>,
-    /// The angle at which the spring is at rest, zero of rates.
+    /// Rest angle of the spring; zero for rates.
     pub rest: F,
 }
 
 impl<F> JointDifference<F> {
-    /// A link's own less that of another one, if it is not the ground.
+    /// Creates the difference between the link's own symbol and that of the other link; `other` is
+    /// `None` for the ground.
     pub(super) fn of_links(own: SymbolId, other: Option<SymbolId>, rest: F) -> Self {
         let other = other.map(|other| (other, -1));
         Self {
@@ -80,20 +83,20 @@ impl<F> JointDifference<F> {
         }
     }
 
-    /// The link's own.
+    /// Returns the symbol of the link itself.
     pub(super) fn own(&self) -> Option<SymbolId> {
         self.terms.first().map(|(own, _)| *own)
     }
 }
 
 impl JointDifference<Formula> {
-    /// The derivative by an angle or a rate.
+    /// Returns the derivative of the difference by an angle or a rate.
     pub(super) fn slope(&self, symbol: SymbolId) -> Option<Formula> {
         let found = self.terms.iter().find(|(known, _)| *known == symbol);
         found.map(|(_, weight)| Formula::integer(*weight))
     }
 
-    /// The difference written out.
+    /// Returns the difference as a formula in the symbols of angles or rates.
     pub(super) fn written_out(&self) -> Formula {
         let terms = self.terms.iter();
         let terms = terms.map(|&(id, weight)| &Formula::integer(weight) * &Formula::symbol(id));
@@ -102,7 +105,7 @@ impl JointDifference<Formula> {
 }
 
 impl JointDifference {
-    /// The difference as a formula, in the order in which it is computed.
+    /// Returns the difference as a formula, in the order in which it is computed.
     pub fn formula(&self) -> Expr {
         let times = |weight: i64, expr: Expr| match weight {
             1 => expr,
@@ -115,12 +118,12 @@ impl JointDifference {
     }
 }
 
-/// Differences of the angles and the rates of two links, as far as anything depends on them.
+/// Relative angle and rate of two links, if other quantities depend on them.
 pub(super) struct PairDifferences {
     pub(super) pair: LinkPair,
-    /// θ_a − θ_b − ρ.
+    /// Relative angle minus rest angle, θ_a − θ_b − ρ.
     pub(super) angle: Option<Formula>,
-    /// ω_a − ω_b.
+    /// Relative rate, ω_a − ω_b.
     pub(super) rate: Option<Formula>,
 }
 
@@ -134,53 +137,54 @@ impl PairDifferences {
     }
 }
 
-/// Meaning of a symbol of a line.
+/// Definition of a symbol of a line.
 #[derive(Clone, Debug, PartialEq)]
 pub enum LineMeaning<F = Expr> {
     /// A formula in other symbols.
     Formula(F),
-    /// The root of a formula.
+    /// The square root of a formula.
     Root {
-        /// The formula.
+        /// The formula under the square root.
         square: F,
-        /// A symbol that is spelt as the root, for formulas alone.
+        /// A symbol that is spelled as the root, for printed formulas.
         shown: SymbolId,
     },
 }
 
-/// A symbol of a line while it is derived.
+/// A symbol of a line during the derivation.
 pub(super) struct DerivedLineSymbol {
     pub(super) meaning: LineMeaning<Formula>,
-    /// The coordinates that it depends on.
+    /// Coordinates that the symbol depends on.
     pub(super) coordinates: Vec<SymbolId>,
 }
 
-/// A line while it is derived.
+/// A line during the derivation.
 pub(super) struct DerivedLine {
     pub(super) line: SpringLine,
     pub(super) names: Vec<String>,
     pub(super) offset: [SymbolId; 2],
-    /// The coordinates of the links that have arms.
+    /// Angles of the links that have arms. (An arm is a vector fixed to a link; the line is the sum
+    /// of all arms.)
     pub(super) coordinates: Vec<SymbolId>,
-    /// N_i of the arms.
+    /// Moments N_i = Δ·∂Δ/∂θ_i, one per arm.
     pub(super) moments: Vec<SymbolId>,
-    /// ℓ, and J_i of the arms.
+    /// Length ℓ, and its slopes J_i = ∂ℓ/∂θ_i, one per arm.
     pub(super) length: Option<(SymbolId, Vec<SymbolId>)>,
-    /// Pulls and slopes of what stores energy, and of the damper.
+    /// Pulls and slopes of the terms of the potential energy and of the damper.
     pub(super) pulls: Vec<(Formula, Vec<SymbolId>)>,
 }
 
-/// Lines of straight springs while they are derived.
+/// Lines of straight springs during the derivation.
 pub(super) struct DerivedLines {
     pub(super) list: Vec<DerivedLine>,
     pub(super) symbols: BTreeMap<SymbolId, DerivedLineSymbol>,
-    /// Energy that all lines store.
+    /// Potential energy of all lines.
     pub(super) energy: Formula,
-    /// Terms of Rayleigh's function of straight dampers.
+    /// Terms of Rayleigh's function from straight dampers.
     pub(super) losses: Vec<Formula>,
 }
 
-/// None.
+/// Creates a derivation without lines.
 impl Default for DerivedLines {
     fn default() -> Self {
         Self {
@@ -193,7 +197,7 @@ impl Default for DerivedLines {
 }
 
 impl LineMeaning {
-    /// The meaning as a formula for people.
+    /// Returns the definition as a formula for printing.
     pub fn formula(&self) -> Expr {
         match self {
             Self::Formula(formula) => formula.clone(),
@@ -202,21 +206,21 @@ impl LineMeaning {
     }
 }
 
-/// Meaning of a symbol that stands for a function of an expression.
+/// Definition of a symbol that is a function of an expression.
 pub(super) struct CompositeObservable {
     pub(super) function: Function,
     pub(super) argument: Formula,
-    /// The cosine that belongs to a sine, and the other way round; the symbol
-    /// itself for a root.
+    /// The cosine that has the same argument as a sine, or the sine that has the same argument as a
+    /// cosine; for a root, the symbol itself.
     pub(super) partner: SymbolId,
 }
 
-/// A braking torque while it is derived.
+/// A friction torque during the derivation.
 #[derive(Clone)]
 pub(super) struct DerivedTorque {
     pub(super) symbol: SymbolId,
     pub(super) slopes: [SymbolId; 2],
-    pub(super) place: FrictionPlace,
+    pub(super) place: FrictionContact,
     pub(super) source: DerivedSource,
 }
 
@@ -226,7 +230,7 @@ pub(super) enum DerivedSource {
         link: LinkId,
         rate: Formula,
     },
-    /// Of two links that are not parent and child, by the number of their pair.
+    /// Between two links that are not parent and child, with the index of their pair.
     Pair {
         number: usize,
         rate: Formula,
@@ -235,7 +239,7 @@ pub(super) enum DerivedSource {
 }
 
 impl DerivedTorque {
-    /// D w of a link.
+    /// Returns the product D w of the torque and the rate of a link.
     pub(super) fn work(&self) -> Option<Formula> {
         match &self.source {
             DerivedSource::Link { rate, .. } | DerivedSource::Pair { rate, .. } => {
@@ -245,7 +249,7 @@ impl DerivedTorque {
         }
     }
 
-    /// The torque with its rate in other symbols.
+    /// Returns the torque with its rate expressed by other symbols.
     pub(super) fn substitute(&self, replacements: &[(SymbolId, Formula)]) -> Self {
         let mut torque = self.clone();
         if let DerivedSource::Link { rate, .. } | DerivedSource::Pair { rate, .. } =

@@ -1,10 +1,10 @@
-//! Copies that differ (physics §14): the constants of the copies as their means and
-//! mismatches, and W by what the mean tree does and what the mismatch adds.
+//! Copies that differ (physics §14). The constants of the copies are split into means and
+//! mismatches, and W into the contribution of the mean tree and that of the mismatches.
 //!
-//! A constant of the copies is transformed as their angles are: to its mean and its Helmert
-//! differences, the *mismatches*. The tree without mismatches is the *mean tree*. It is a
-//! tree of equal copies, has the same coordinates and the same momenta, and gives the
-//! energies H_d of the differences.
+//! A constant of the copies is transformed like their angles: to its mean and its Helmert
+//! differences, the *mismatches*. The tree without mismatches is the *mean tree*. It is a tree of
+//! equal copies with the same coordinates and momenta, and defines the energies H_d of the
+//! differences.
 
 use super::EnergyParts;
 use super::algebra::Formula;
@@ -17,7 +17,7 @@ use super::transfer::SubHamiltonian;
 use super::{LinearSystem, MeanTree};
 use crate::scene::{Coordinate, LinkId, UnequalNode};
 
-/// Constants of a link.
+/// Letters of the constants of one link.
 const LETTERS: [Letter; 9] = [
     letters::INERTIA,
     letters::GRAVITY,
@@ -30,20 +30,21 @@ const LETTERS: [Letter; 9] = [
     letters::LATERAL_MOMENT,
 ];
 
-/// Constants of a link and one above it.
+/// Letters of the constants of a link and one of its ancestors.
 const COUPLINGS: [Letter; 2] = [letters::COUPLING, letters::LATERAL_COUPLING];
 
-/// Constants of copies that differ, in terms of means and mismatches.
+/// Constants of copies that differ, expressed by means and mismatches.
 #[derive(Default)]
 pub(super) struct CopyConstants {
-    /// Constants of the copies, to be replaced.
+    /// Constants of the copies with the expressions that replace them.
     pub(super) replacements: Vec<(SymbolId, Formula)>,
-    /// The mismatches.
+    /// Symbols of the mismatches.
     mismatches: Vec<SymbolId>,
 }
 
 impl CopyConstants {
-    /// Replaces a constant, once: links of one orbit have the same.
+    /// Adds the replacement of a constant, once: the links of one orbit (set of equal copies of one
+    /// link) share it.
     fn replace(&mut self, symbol: SymbolId, value: Formula) {
         let mut known = self.replacements.iter();
         if known.all(|(known, _)| *known != symbol) {
@@ -52,19 +53,20 @@ impl CopyConstants {
     }
 }
 
-/// A tree whose copies differ beside its mean tree.
+/// A tree whose copies differ, together with its mean tree.
 pub(super) struct Mismatch<'f> {
-    /// The tree.
+    /// The tree with its actual constants.
     pub(super) frame: &'f DerivedFrame,
     /// The mean tree.
     pub(super) mean: &'f DerivedFrame,
-    /// Velocities u that the mismatch adds.
+    /// Velocities u that the mismatches add.
     added: Vec<SymbolId>,
-    /// M̃ − M̃₀.
+    /// Difference M̃ − M̃₀ of the mass matrices of the tree and of the mean tree.
     mass: MassMatrix,
 }
 
-/// A letter of the constants of a node's copies, and the node above that these couple to.
+/// Family of constants that all copies of a node have: its letter and, for couplings, the ancestor
+/// node to which they couple the copies.
 struct CopyLetter<'a> {
     node: &'a UnequalNode,
     letter: Letter,
@@ -73,7 +75,7 @@ struct CopyLetter<'a> {
 }
 
 impl CopyLetter<'_> {
-    /// Names the mean, or the mismatch of the difference with this name.
+    /// Names the mean, or the mismatch in the difference with this name.
     fn constant(
         &self,
         derivation: &mut Derivation<'_>,
@@ -118,14 +120,14 @@ impl CopyLetter<'_> {
 }
 
 impl Derivation<'_> {
-    /// Names means and mismatches of the constants of all copies that differ.
+    /// Names the means and mismatches of the constants of all copies that differ.
     pub(super) fn copy_constants(&mut self, coordinates: &[Coordinate]) -> CopyConstants {
         let mut constants = CopyConstants::default();
         for node in self.scene.unequal_nodes(coordinates) {
             let mut above = vec![(node.links.clone(), LETTERS.as_slice())];
             while let Some((ancestors, letters)) = above.pop() {
                 for &letter in letters {
-                    self.take_apart(&node, coordinates, letter, &ancestors, &mut constants);
+                    self.split_constants(&node, coordinates, letter, &ancestors, &mut constants);
                 }
                 let next = |link: &LinkId| self.scene.links[link.0].parent;
                 let next: Option<Vec<LinkId>> = ancestors.iter().map(next).collect();
@@ -135,9 +137,9 @@ impl Derivation<'_> {
         constants
     }
 
-    /// Means and mismatches of one letter of a node's links, with the links above them that
-    /// it couples them to, or with themselves.
-    fn take_apart(
+    /// Splits the constants of one letter into mean and mismatches. `others` are the ancestors that
+    /// the constants couple the node's links to, or the links themselves.
+    fn split_constants(
         &mut self,
         node: &UnequalNode,
         coordinates: &[Coordinate],
@@ -190,7 +192,8 @@ impl Derivation<'_> {
         }
     }
 
-    /// The symbols of one letter of a node's links, of those that have it.
+    /// Returns the symbols of one letter for a node's links; `None` for links that do not have this
+    /// constant.
     fn copy_symbols(
         &self,
         node: &UnequalNode,
@@ -211,7 +214,7 @@ impl Derivation<'_> {
         symbols.collect()
     }
 
-    /// The Lagrangian of the mean tree.
+    /// Derives the Lagrangian of the mean tree.
     pub(super) fn mean_frame(
         &self,
         frame: &DerivedFrame,
@@ -235,7 +238,7 @@ impl Derivation<'_> {
         }
     }
 
-    /// A tree beside its mean tree.
+    /// Derives the mismatch between a tree and its mean tree.
     pub(super) fn mismatch<'f>(
         &mut self,
         frame: &'f DerivedFrame,
@@ -261,8 +264,8 @@ impl Derivation<'_> {
         }
     }
 
-    /// The mean tree as plain data, and the velocities that the mismatch adds:
-    /// M̃₀ u = −(M̃ − M̃₀) q̇.
+    /// Returns the mean tree as plain data, and the velocities u that the mismatches add: M̃₀ u =
+    /// −(M̃ − M̃₀) q̇.
     pub(super) fn mean_tree(&mut self, mismatch: &Mismatch<'_>) -> MeanTree {
         let frame = self.frame(mismatch.mean);
         let velocities = &mismatch.frame.velocities;
@@ -282,7 +285,7 @@ impl Derivation<'_> {
         }
     }
 
-    /// Terms that the mismatch adds to W = {H_d, H}, every term of it with a mismatch. With
+    /// Returns the terms that the mismatches add to W = {H_d, H}; each contains a mismatch. With
     /// q̇ = q̇₀ + u, where q̇₀ belongs to the same momenta in the mean tree,
     /// kinetic: Σ ∂V/∂q_s u_s + ∂T/∂p_s (½ q̇ᵀ ∂_s(M̃ − M̃₀) q̇ + ½ uᵀ ∂_s M̃₀ (2 q̇ − u)),
     /// potential: −Σ ∂T/∂p_s ∂(U − U₀)/∂q_s.
@@ -301,7 +304,7 @@ impl Derivation<'_> {
         let velocity = |index: usize| Formula::symbol(frame.velocities[index]);
         let added = |index: usize| Formula::symbol(added[index]);
         let half = Formula::integer(2).pow(-1);
-        // ½ Σ (x_i y_j + x_j y_i) ∂_s M_ij over the lower triangle and the diagonal.
+        // Computes ½ Σ (x_i y_j + x_j y_i) ∂_s M_ij over the lower triangle and the diagonal.
         let form = |matrix: &MassMatrix,
                     s: SymbolId,
                     x: &dyn Fn(usize) -> Formula,

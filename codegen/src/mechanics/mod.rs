@@ -1,8 +1,13 @@
 //! The symbolic derivation: from a scene to its mechanics.
 //!
-//! Everything here is derived from the positions of the links; the closed
-//! forms of the literature are what tests compare with. Inside, formulas are
-//! Symbolica's (behind [`algebra`]); what leaves is plain data.
+//! All formulas are derived from the positions of the links; closed forms from the literature serve
+//! only as references in tests. During the derivation formulas are Symbolica's (in [`algebra`]);
+//! the results are plain data.
+//!
+//! Symbols used throughout: K and U are the kinetic and potential energy of the tree, M its mass
+//! matrix, M̃ that in symmetric coordinates, H_d = T + V the energy of one difference between
+//! copies, W = {H_d, H} the power that the rest of the tree supplies to it, and R Rayleigh's
+//! dissipation function.
 
 pub mod algebra;
 mod articulation;
@@ -32,6 +37,7 @@ mod link_pairs;
 mod lock;
 mod meaning;
 mod mismatch;
+mod normal_form;
 mod observable;
 mod observable_rate;
 mod observables;
@@ -63,6 +69,7 @@ pub use link::{Composite, LinkBalance, LinkSymbols};
 pub use link_pairs::PairElement;
 pub use lock::LockError;
 pub use meaning::{JointDifference, LineMeaning, Temporal};
+pub use normal_form::{DefinitionKind, NormalFormDefinition, NormalFormFormulas, ResonantGrowth};
 pub use observables::{
     AppliedFunction, CanonicalRate, EnergySymbols, LinearSystem, NestedSymbols, ObservableFormulas,
     ObservableFrame, Observables,
@@ -96,21 +103,22 @@ pub struct Constant {
 /// One entry of the lower triangle of a symmetric matrix.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MatrixEntry {
-    /// Row, at least `column`.
+    /// Row index, at least `column`.
     pub row: usize,
-    /// Column.
+    /// Column index.
     pub column: usize,
     /// Value, never zero.
     pub value: Expr,
 }
 
-/// Kinetic and potential part of an energy; of a transfer W of the energy H_d = T + V, the
-/// parts {H_d, K − T} and {H_d, U − V} that those of the rest of the tree contribute.
+/// Kinetic and potential part of an energy. For the transfer W into the energy H_d = T + V of a
+/// difference, the parts are {H_d, K − T} and {H_d, U − V}, the contributions of the rest of the
+/// tree's kinetic and potential energy.
 #[derive(Clone, Debug, PartialEq)]
 pub struct EnergyParts<F = Expr> {
-    /// The kinetic part.
+    /// Kinetic part of the energy.
     pub kinetic: F,
-    /// The potential part.
+    /// Potential part of the energy.
     pub potential: F,
 }
 
@@ -123,8 +131,8 @@ impl<F> EnergyParts<F> {
     }
 }
 
-/// The Lagrangian in one set of generalized coordinates and what follows from
-/// it. Equations of motion: Σ_j M_ij q̈_j + bias_i = 0.
+/// The Lagrangian in one set of generalized coordinates, with the quantities derived from it. The
+/// equations of motion are Σ_j M_ij q̈_j + bias_i = 0.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Frame {
     /// Generalized coordinates.
@@ -135,60 +143,58 @@ pub struct Frame {
     pub momenta: Vec<SymbolId>,
     /// Mass matrix, lower triangle without zeros, by row.
     pub mass: Vec<MatrixEntry>,
-    /// Second derivatives of the potential energy, likewise, if modes are asked
-    /// for.
+    /// Second derivatives of the potential energy, in the same layout, if modes are requested.
     pub stiffness: Option<Vec<MatrixEntry>>,
-    /// Kinetic energy in coordinates and velocities and potential energy, zero
-    /// where all coordinates are zero; if energies are asked for.
+    /// Kinetic energy in coordinates and velocities, and potential energy, which is zero if all
+    /// coordinates are zero; if energies are requested.
     pub energies: Option<EnergyParts>,
-    /// p_i = ∂L/∂v_i in coordinates and velocities, if momenta are asked for.
+    /// Momenta p_i = ∂L/∂v_i in coordinates and velocities, if momenta are requested.
     pub momentum: Option<Vec<Expr>>,
-    /// ṗ_i = ∂L/∂q_i + Q_i, friction, drag and drive included, in coordinates
-    /// and velocities, if momenta are asked for.
+    /// Rates ṗ_i = ∂L/∂q_i + Q_i in coordinates and velocities, including friction, drag and drive;
+    /// if momenta are requested.
     pub momentum_rates: Option<Vec<Expr>>,
-    /// Torques of friction that is not viscous, as far as symbols stand for them.
+    /// Torques of friction that is not viscous, which have their own symbols.
     pub torques: Vec<BrakingTorque>,
-    /// Generalized forces −∂R/∂v_i of friction and drag, zero where there are
-    /// none; contained in `bias` with the opposite sign.
+    /// Generalized forces −∂R/∂v_i of friction and drag, zero without them; `bias` contains them
+    /// with the opposite sign.
     pub dissipative_forces: Vec<Expr>,
-    /// Generalized forces Q_i(t, q) of the drive, zero where there are none;
-    /// contained in `bias` with the opposite sign.
+    /// Generalized forces Q_i(t, q) of the drive, zero without one; `bias` contains them with the
+    /// opposite sign.
     pub drive: Vec<Expr>,
-    /// Centrifugal, gravity, friction and drive terms of the Euler–Lagrange
-    /// equations.
+    /// Centrifugal, gravity, friction and drive terms of the Euler–Lagrange equations.
     pub bias: Vec<Expr>,
 }
 
-/// The energy of one difference and the transfer into it. Symbols: symmetric
-/// coordinates and their momenta; in-phase velocities w in the truncated
-/// forms, generalized velocities in the exact one.
+/// Energy H_d of one difference and the transfer W into it. The formulas use symmetric coordinates
+/// and their momenta, with in-phase velocities w in the truncated forms and generalized velocities
+/// in the exact one.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TransferFormulas {
     /// Index of the difference among the symmetric coordinates.
     pub coordinate: usize,
-    /// H_d, its kinetic and its potential part.
+    /// Kinetic and potential part of H_d.
     pub energy: EnergyParts,
-    /// W through the orders asked for: to first order in the difference angles (the paper's
-    /// W_K, W_P), to second order in the amplitude, then others.
+    /// W truncated at the requested orders: first order in the difference angles (the paper's W_K,
+    /// W_P), second order in the amplitude, then others.
     pub truncated: Vec<Truncated>,
-    /// The coefficients of p_d², p_d θ_d, θ_d² in W to second order in the amplitude, if it
-    /// is a quadratic form in this difference alone.
+    /// Coefficients of p_d², p_d θ_d, θ_d² in W to second order in the amplitude, if W is a
+    /// quadratic form in this difference alone.
     pub quadratic_form: Option<[Expr; 3]>,
-    /// W without truncation.
+    /// Exact W, split by the energy that it comes from.
     pub exact: Option<EnergyParts>,
-    /// The rate between copies that differ, as what the mean tree does, in its velocities, and
-    /// what the mismatch adds.
+    /// Exact W between copies that differ, split into the contribution of the mean tree, in its
+    /// velocities, and that of the mismatches.
     pub split: Option<[EnergyParts; 2]>,
-    /// The power of friction and drag on H_d; zero without both.
+    /// Power of friction and drag on H_d; zero without both.
     pub friction: Expr,
-    /// The power of the drive on H_d; zero without a moving pivot.
+    /// Power of the drive on H_d; zero if the pivot is fixed.
     pub drive: Expr,
-    /// ∂H_d/∂p_d, by which torques on the difference have power.
+    /// Velocity ∂H_d/∂p_d, which a torque on the difference multiplies to give its power.
     pub velocity: Expr,
 }
 
 impl TransferFormulas {
-    /// W through an order, if it is asked for.
+    /// Returns W truncated at the given order, if it is requested.
     pub fn truncated(&self, counting: Counting, order: u32) -> Option<&EnergyParts> {
         let mut all = self.truncated.iter();
         let found = all.find(|form| (form.counting, form.order) == (counting, order));
@@ -196,135 +202,140 @@ impl TransferFormulas {
     }
 }
 
-/// W cut off at an order.
+/// W truncated at an order.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Truncated {
-    /// Quantities that count as small.
+    /// Quantities that count as small: angles alone, or angles and momenta.
     pub counting: Counting,
-    /// The highest order kept.
+    /// Highest order that is kept.
     pub order: u32,
-    /// W, in the symbols of the expansion's corrections.
+    /// Kinetic and potential part of the truncated W, expressed in the symbols of the expansion
+    /// (see [`Correction`]).
     pub parts: EnergyParts,
 }
 
-/// Velocities of one order of their series.
+/// Terms of one order in the series of the velocities.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Correction<F = Expr> {
-    /// In-phase velocities, in the order of the means; none where all vanish.
+    /// In-phase velocities x, in the order of the means; empty if all vanish.
     pub in_phase: Vec<SymbolId>,
-    /// M⁽⁰⁾ x = right defines them.
+    /// Right side of the linear system M⁽⁰⁾ x = right that defines them.
     pub right: Vec<F>,
-    /// Velocities of differences, with their values.
+    /// Velocities of the differences, with their values.
     pub differences: Vec<(SymbolId, F)>,
 }
 
-/// The inverse mass matrix about the in-phase motion.
+/// Inverse mass matrix, expanded about the in-phase motion.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MassExpansion {
     /// Indices of the in-phase coordinates (means).
     pub in_phase: Vec<usize>,
     /// Symbols of w = M⁽⁰⁾⁻¹ p for the in-phase coordinates.
     pub velocities: Vec<SymbolId>,
-    /// In-phase block of M⁽⁰⁾; rows and columns count in `in_phase`.
+    /// In-phase block of M⁽⁰⁾; row and column indices refer to `in_phase`.
     pub leading: Vec<MatrixEntry>,
-    /// Velocities of higher orders, each in terms of earlier ones.
+    /// Velocities of higher orders; each order uses earlier ones.
     pub corrections: Vec<Correction>,
-    /// w and the inverse mass matrix solved and written out, for small blocks.
+    /// w and the inverse mass matrix, solved and written out, for small blocks.
     pub written_out: Option<WrittenOut>,
 }
 
-/// The mean tree of one whose copies differ.
+/// The mean tree: the tree in which copies that differ have their mean constants.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MeanTree {
     /// Mechanics of the mean tree, in the symmetric coordinates of the tree.
     pub frame: Frame,
-    /// The velocities that the mismatch adds at given momenta; solved for with the mass
-    /// matrix of the mean tree.
+    /// Velocities that the mismatches add at given momenta; the system has the mass matrix of the
+    /// mean tree.
     pub added: LinearSystem,
 }
 
-/// Formulas for people: what the code solves, written out.
+/// Formulas for printing: solutions of linear systems, written out.
 #[derive(Clone, Debug, PartialEq)]
 pub struct WrittenOut {
-    /// The symbol D.
+    /// Symbol D of the determinant.
     pub determinant: SymbolId,
-    /// D, the determinant of the in-phase block.
+    /// Determinant D of the in-phase block.
     pub determinant_value: Expr,
-    /// w for each in-phase coordinate.
+    /// Velocities w, one per in-phase coordinate.
     pub velocities: Vec<Expr>,
-    /// M̃⁻¹ at the in-phase motion, dense.
+    /// Inverse M̃⁻¹ at the in-phase motion, dense.
     pub inverse: Vec<Vec<Expr>>,
     /// First-order correction of M̃⁻¹ in the difference angles, dense.
     pub inverse_first_order: Vec<Vec<Expr>>,
 }
 
-/// Everything derived for a scene. Invariants: mass matrices symmetric and
-/// zero between unrelated branches; K = ½ vᵀ M v.
+/// All results of the derivation for a scene. Invariants: mass matrices are symmetric and zero
+/// between unrelated branches; K = ½ vᵀ M v.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Mechanics {
     /// All symbols.
     pub symbols: Symbols,
-    /// Symbols of the scene's parameters, in their order.
+    /// Symbols of the scene's parameters, in the scene's order.
     pub parameters: Vec<SymbolId>,
-    /// Meaning of the angles and rates of joints.
+    /// Definitions of the relative angles and rates of joints.
     pub joints: BTreeMap<SymbolId, JointDifference>,
-    /// Meaning of the symbols of straight springs' lines.
+    /// Definitions of the symbols of straight springs' lines.
     pub lines: BTreeMap<SymbolId, LineMeaning>,
-    /// Meaning of every trigonometric symbol.
+    /// Definition of every trigonometric symbol.
     pub trigonometry: BTreeMap<SymbolId, Trigonometric>,
-    /// Combinations of differences whose sine and versine appear.
+    /// Combinations of differences whose sine and versine are used.
     pub combinations: Vec<AngleCombination>,
     /// Constants of the model, in the order of their symbols.
     pub constants: Vec<Constant>,
     /// The drive, if the scene has one.
     pub drive: Option<DriveTerms>,
-    /// Power −2 R of friction and drag, if there are any, where energies are asked for
-    /// and a drive or torques from outside feed them; not of trees in loops.
+    /// Power −2 R of friction and drag, with Rayleigh's function R. Present if energies are
+    /// requested and a drive or external torques feed them; `None` for trees in loops.
     pub friction_power: Option<Expr>,
-    /// The mechanics in absolute angles; without coordinates where the code is loops.
+    /// Mechanics in absolute angles; without coordinates if the code is loops.
     pub absolute: Frame,
-    /// The joints, from which their accelerations can be formed as well.
+    /// Joints for the articulated-body recursion, the other method of computing accelerations.
     pub articulation: Articulation,
-    /// Positions of the links' points, if asked for and not in loops.
+    /// Positions of the links' points, if requested and the code is not loops.
     pub positions: Option<Vec<LinkPositions>>,
-    /// The balance of one link, where the code is loops.
+    /// Balance of force and torque of one link, if the code is loops.
     pub link: Option<LinkBalance>,
-    /// Torques of one link by its own motion, where the code is loops.
+    /// Torques that depend on the motion of one joint, if the code is loops.
     pub joint_forces: Option<JointForces>,
-    /// Energies, powers and positions of one link, where the code is loops and any of them or
-    /// energies by scale are asked for.
+    /// Energies, powers and positions of one link, if the code is loops and any of them, or
+    /// energies by scale, are requested.
     pub body: Option<LinkBody>,
-    /// Energies by scale of one link, where the code is loops and they are asked for.
+    /// Energies by scale (by generation of the branching) of one link, if the code is loops and
+    /// they are requested.
     pub scales: Option<LinkScales>,
-    /// The symmetric coordinates, if asked for.
+    /// Symmetric coordinates (means and differences of copies), if requested.
     pub coordinates: Vec<Coordinate>,
-    /// The mechanics in symmetric coordinates, if asked for. On nested trees its
-    /// symbols alone: the program is formed from `sectors` there.
+    /// Mechanics in symmetric coordinates, if requested. For nested copies it contains only
+    /// symbols, and the program computes their values from `sectors`.
     pub symmetric: Option<Frame>,
-    /// The mechanics by orbits and sectors, if a budget is asked for, or
-    /// symmetric coordinates of a nested tree.
+    /// Mechanics by orbits (sets of equal copies of one link) and sectors (sets of symmetric
+    /// coordinates: all means, or one difference between copies), if a budget is requested, or
+    /// symmetric coordinates of nested copies.
     pub sectors: Option<OrbitMechanics>,
-    /// Small differences beside an in-phase motion, if asked for.
+    /// Small differences of an in-phase motion, if requested.
     pub transverse: Option<TransverseMechanics>,
-    /// Expansion about the in-phase motion, if a transfer is asked for.
+    /// Resonant normal form of degree 4, if requested.
+    pub normal_form: Option<NormalFormFormulas>,
+    /// Expansion about the in-phase motion, if a transfer is requested.
     pub expansion: Option<MassExpansion>,
-    /// The mean tree, if a transfer is asked for between copies that differ.
+    /// The mean tree, if a transfer is requested between copies that differ.
     pub mean_tree: Option<MeanTree>,
-    /// Energy transfers, one for each difference, if asked for.
+    /// Energy transfers, one per difference, if requested.
     pub transfers: Vec<TransferFormulas>,
-    /// Quantities of the user's own with their rates.
+    /// Observables (quantities that the user defines) with their rates.
     pub observables: Observables,
 }
 
 impl Mechanics {
-    /// The constant behind a symbol, if it is one.
+    /// Returns the constant with this symbol, if there is one.
     pub fn constant(&self, symbol: SymbolId) -> Option<&Constant> {
         self.constants.iter().find(|c| c.symbol == symbol)
     }
 
-    /// The constant, by its index, whose place a constant takes: of all that have the same
-    /// value in the same unit, the one of the shortest name, and of these the first. That of
-    /// copies that do not differ in it is the one of all copies, where there is one.
+    /// Returns the index of the constant that represents this one. Of all constants with the same
+    /// value and unit it is the one with the shortest name, and of these the first. A constant of
+    /// one copy that equals that of all copies is represented by the latter.
     pub fn representative(&self, index: usize) -> usize {
         let Constant { value, unit, .. } = &self.constants[index];
         let equal = self.constants.iter().enumerate();
@@ -335,7 +346,7 @@ impl Mechanics {
     }
 }
 
-/// Derives what the scene asks for, and nothing else.
+/// Derives all requested quantities, and nothing else.
 ///
 /// # Errors
 /// [`AlgebraError`] if the algebra cannot be used, or if an observable divides

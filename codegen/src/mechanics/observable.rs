@@ -1,4 +1,4 @@
-//! Observables as formulas: a user's expression in the symbols of one frame.
+//! Converts observables (expressions of the user) to formulas in the symbols of one frame.
 
 use super::algebra::{AlgebraError, Formula};
 use super::derivation::Derivation;
@@ -10,18 +10,17 @@ use crate::scene::{
     Coordinate, CoordinateIndex, Function, LinkId, Observed, ObservedAtom, Variable, VariableKind,
 };
 
-/// The frame in which an observable is written: the variables are those of one
-/// frame.
+/// Frame in which an observable is expressed; all its variables are those of this frame.
 pub(super) struct Setting<'a> {
     pub(super) frame: &'a DerivedFrame,
-    /// The symmetric coordinates, if the frame's variables are those.
+    /// Symmetric coordinates, if the frame uses them.
     pub(super) coordinates: Option<&'a [Coordinate]>,
-    /// Name of the observable.
+    /// Name of the observable, for messages.
     pub(super) name: &'a str,
 }
 
 impl Setting<'_> {
-    /// The formula, unless it is zero.
+    /// Returns the divisor, or an error if it is zero.
     fn divisor(&self, formula: Formula) -> Result<Formula, AlgebraError> {
         if formula.expand().is_zero() {
             let observable = self.name.to_owned();
@@ -30,8 +29,8 @@ impl Setting<'_> {
         Ok(formula)
     }
 
-    /// A variable in those of the frame. With θ = J q also ω = J q̇, and
-    /// momenta transform as p_θ = J (JᵀJ)⁻¹ p, where JᵀJ is diagonal.
+    /// Expresses a variable in the variables of the frame. With θ = J q also ω = J q̇; momenta
+    /// transform as p_θ = J (JᵀJ)⁻¹ p, where JᵀJ is diagonal.
     fn variable(&self, variable: &Variable) -> Formula {
         let symbols = match variable.kind {
             VariableKind::Angle => &self.frame.coordinates,
@@ -64,8 +63,8 @@ impl Setting<'_> {
 }
 
 impl Derivation<'_> {
-    /// The formula of an observable, as it was written: multiplied out, it
-    /// would be longer and could lose digits.
+    /// Returns the formula of an observable without multiplying it out, which would make it longer
+    /// and could lose digits.
     ///
     /// # Errors
     /// [`AlgebraError::DivisionByZero`].
@@ -109,7 +108,7 @@ impl Derivation<'_> {
         })
     }
 
-    /// The model's constant of that name; zero if it has none.
+    /// Returns the model's constant with this name; zero if the model does not have it.
     fn constant_called(&self, name: &str) -> Formula {
         let found = self
             .symbols
@@ -118,8 +117,8 @@ impl Derivation<'_> {
         found.map_or_else(Formula::zero, |(id, _)| Formula::symbol(id))
     }
 
-    /// A function of a formula. Sines and cosines that the mechanics has
-    /// anyway are those.
+    /// Returns a function of a formula. Sines and cosines that the mechanics already has are
+    /// reused.
     fn call(&mut self, setting: &Setting<'_>, function: Function, argument: Formula) -> Formula {
         if argument.is_zero() {
             return match function {
@@ -153,8 +152,8 @@ impl Derivation<'_> {
         }
     }
 
-    /// Sine or cosine of a coordinate, or of a difference of two that the mass
-    /// matrix holds.
+    /// Returns the existing sine or cosine of a coordinate, or of a difference of two in the mass
+    /// matrix.
     fn known_call(
         &self,
         setting: &Setting<'_>,
@@ -202,7 +201,7 @@ impl Derivation<'_> {
                 format!("\\{}\\left({inside_latex}\\right)", function.name()),
             ),
         };
-        // Parameters may be spelled like other symbols.
+        // A parameter may have the spelling of another symbol.
         while self.symbols.find(&text).is_some() {
             text.push('′');
         }
@@ -225,7 +224,7 @@ impl Derivation<'_> {
         self.composites.insert(symbol, composite);
     }
 
-    /// ∂/∂x of a function of an expression, by the chain rule.
+    /// Returns the derivative of a function of an expression, by the chain rule.
     pub(super) fn composite_slope(
         &self,
         symbol: SymbolId,

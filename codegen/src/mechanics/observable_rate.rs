@@ -1,27 +1,25 @@
-//! Rates of change of observables, by two routes (docs/physics.md §7).
+//! Rates of change of observables, in two forms (docs/physics.md §7).
 //!
-//! The first starts from coordinates and velocities and takes the chain rule
-//! along the motion:
+//! The first form uses coordinates and velocities and applies the chain rule along the motion:
 //!
 //! ```text
 //! dF/dt = Σ ∂F/∂q_i v_i + Σ ∂F/∂p_i (∂L/∂q_i + Q_i) + Σ ∂F/∂v_i a_i
 //! ```
 //!
-//! with the accelerations a that the equations of motion are solved for, and
-//! friction and drag Q. The second starts from coordinates and momenta and takes
-//! the Poisson bracket of F(q, p, v(q, p)) with H. Because M v = p, a velocity in F counts as
-//! ∂v/∂p = M⁻¹ and ∂v/∂q_i = −M⁻¹ (∂_i M) v, so that with M y = ∂F/∂v
+//! with the accelerations a from the equations of motion, and friction and drag Q. The second form
+//! uses coordinates and momenta and takes the Poisson bracket of F(q, p, v(q, p)) with H. Because M
+//! v = p, a velocity in F has the derivatives ∂v/∂p = M⁻¹ and ∂v/∂q_i = −M⁻¹ (∂_i M) v. With M y =
+//! ∂F/∂v follows
 //!
 //! ```text
 //! {F, H} = Σ ∂F/∂q_i v_i − Σ (∂F/∂p_i + y_i) ∂H/∂q_i − Σ y_i (Ṁ v)_i
 //! ∂H/∂q_i = −½ vᵀ (∂_i M) v + ∂U/∂q_i
 //! ```
 //!
-//! and friction adds Σ (∂F/∂p_i + y_i) Q_i: one solve with the velocities'
-//! matrix, and no acceleration. M is never inverted in writing. A drive's forces
-//! count with ∂L/∂q and, the other way round, with ∂H/∂q. In the symmetric
-//! coordinates of a nested tree, forces, slopes and energies stay symbols: the
-//! program forms their values on means and differences.
+//! and friction adds Σ (∂F/∂p_i + y_i) Q_i. This takes one solve with the mass matrix of the
+//! velocities and no acceleration; M is never inverted in a formula. The drive's forces are added
+//! to ∂L/∂q and subtracted from ∂H/∂q. For nested copies in symmetric coordinates, forces, slopes
+//! and energies remain symbols, whose values the program computes on means and differences.
 
 use super::algebra::{AlgebraError, Formula};
 use super::derivation::Derivation;
@@ -37,7 +35,7 @@ use super::rate_symbols::RateSymbols;
 use crate::scene::Coordinate;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// The gradients of an observable, in the order of the coordinates.
+/// Gradients of an observable, in the order of the coordinates.
 struct Gradients {
     coordinates: Vec<Formula>,
     velocities: Vec<Formula>,
@@ -45,7 +43,7 @@ struct Gradients {
 }
 
 impl Derivation<'_> {
-    /// All observables of the scene.
+    /// Derives all observables of the scene.
     ///
     /// # Errors
     /// [`AlgebraError::DivisionByZero`].
@@ -145,7 +143,7 @@ impl Derivation<'_> {
         }
     }
 
-    /// {F, H} + Σ (∂F/∂p_i + y_i) Q_i.
+    /// Returns the rate {F, H} + Σ (∂F/∂p_i + y_i) Q_i.
     fn canonical(
         &mut self,
         setting: &Setting<'_>,
@@ -184,7 +182,8 @@ impl Derivation<'_> {
         }
     }
 
-    /// Symbols of which the program forms the values, as far as observables use them.
+    /// Returns those symbols used by observables whose values the program computes without a
+    /// formula.
     fn nested_symbols(
         &self,
         symbols: &RateSymbols,
@@ -204,7 +203,7 @@ impl Derivation<'_> {
         }
     }
 
-    /// Symbols and definitions that the observables of a frame refer to.
+    /// Returns the symbols and definitions that the observables of a frame use.
     fn observable_frame(
         &self,
         frame: &DerivedFrame,
@@ -236,7 +235,7 @@ impl Derivation<'_> {
             }
         };
         let torques = || -> Vec<Formula> { frame.dissipative_forces(self) };
-        // The drive acts like a force of the Lagrangian at fixed time.
+        // At fixed time the drive acts like a force of the Lagrangian.
         let with_drive = |forces: Vec<Formula>, sign: i64| -> Vec<Formula> {
             let drive = frame.drive_forces(self);
             let both = forces.iter().zip(&drive);
@@ -264,7 +263,7 @@ impl Derivation<'_> {
         }
     }
 
-    /// The symbols that observables and their rates are written in.
+    /// Returns the symbols that occur in observables and their rates.
     fn symbols_of_observables(&self, list: &[ObservableFormulas]) -> BTreeSet<SymbolId> {
         let mut used = BTreeSet::new();
         let mut note = |symbol| {
@@ -292,7 +291,7 @@ fn opposite(formulas: &[Formula]) -> Vec<Formula> {
     formulas.iter().map(|formula| -formula.clone()).collect()
 }
 
-/// Σ slope_i symbol_i.
+/// Returns Σ slope_i symbol_i.
 fn dot(slopes: &[Formula], symbols: &[SymbolId]) -> Formula {
     slopes
         .iter()

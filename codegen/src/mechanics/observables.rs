@@ -1,19 +1,19 @@
-//! Observables as they leave the derivation: plain data.
+//! Observables as results of the derivation, in plain data.
 
 use super::expression::{Expr, SymbolId};
 use crate::scene::Function;
 use std::collections::BTreeMap;
 
-/// Quantities of the user's own and what their formulas refer to.
+/// Observables (quantities that the user defines), and the quantities that their formulas use.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Observables {
-    /// The observables, in the order of the description.
+    /// Observables, in the order of the description.
     pub list: Vec<ObservableFormulas>,
-    /// Functions of whole expressions; arguments hold earlier ones only.
+    /// Functions of whole expressions; each argument uses earlier functions only.
     pub functions: BTreeMap<SymbolId, AppliedFunction>,
-    /// Quantities that the observables in absolute angles use.
+    /// Quantities that observables in absolute angles use.
     pub absolute: ObservableFrame,
-    /// Quantities that the observables in symmetric coordinates use.
+    /// Quantities that observables in symmetric coordinates use.
     pub symmetric: ObservableFrame,
 }
 
@@ -31,81 +31,78 @@ pub struct AppliedFunction {
 pub struct ObservableFormulas {
     /// Name of the observable.
     pub name: String,
-    /// True if its variables are the symmetric ones.
+    /// True if its variables are those of symmetric coordinates.
     pub symmetric: bool,
-    /// F in coordinates, velocities and momenta.
+    /// The observable F in coordinates, velocities and momenta.
     pub value: Expr,
-    /// dF/dt in the same and in accelerations and forces; with friction.
+    /// Rate dF/dt in the same variables and in accelerations and forces, including friction.
     pub rate: Expr,
-    /// The part of it that is friction and drag.
+    /// Part of the rate caused by friction and drag.
     pub friction: Expr,
-    /// dF/dt by the Poisson bracket, if momenta are asked for.
+    /// Rate dF/dt by the Poisson bracket, if momenta are requested.
     pub canonical: Option<CanonicalRate>,
 }
 
-/// A rate from coordinates and momenta.
+/// Rate of an observable from coordinates and momenta.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CanonicalRate {
-    /// {F, H} and the part of friction, with the unknowns y of `adjoint`.
+    /// Poisson bracket {F, H} plus the part of friction, with the unknowns y of `adjoint`.
     pub rate: Expr,
-    /// M y = ∂F/∂v, if velocities occur in F.
+    /// Linear system M y = ∂F/∂v for the unknowns y, if velocities v occur in the observable F.
     pub adjoint: Option<LinearSystem>,
 }
 
-/// A linear system with the mass matrix.
+/// A linear system with the mass matrix on its left side.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LinearSystem {
-    /// The unknowns, for which the system is solved.
+    /// Unknowns of the linear system.
     pub unknowns: Vec<SymbolId>,
-    /// The right side.
+    /// Right side of the linear system.
     pub right: Vec<Expr>,
 }
 
-/// Symbols that observables of nested trees refer to and that no formula
-/// defines: written out, they would fill pages. One for each coordinate; none
-/// where none is used.
+/// Symbols without formulas that observables of nested copies use; written out, the formulas would
+/// fill pages. Each list has one symbol per coordinate, or is empty if none is used.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct NestedSymbols {
-    /// ∂L/∂q_i at fixed velocities, with the drive.
+    /// Forces ∂L/∂q_i at fixed velocities, including the drive.
     pub forces: Vec<SymbolId>,
-    /// Forces of friction and drag Q_i.
+    /// Generalized forces Q_i of friction and drag.
     pub torques: Vec<SymbolId>,
-    /// Accelerations by friction and drag alone: M a = Q.
+    /// Accelerations a caused by friction and drag alone: M a = Q.
     pub friction_accelerations: Vec<SymbolId>,
-    /// ∂H/∂q_i at fixed momenta, with the drive.
+    /// Slopes ∂H/∂q_i at fixed momenta, including the drive.
     pub slopes: Vec<SymbolId>,
-    /// (Ṁ v)_i.
+    /// Products (Ṁ v)_i of the mass matrix's rate and the velocities.
     pub changes: Vec<SymbolId>,
-    /// K and U, if observables hold them.
+    /// Symbols of K and U, if observables contain them.
     pub energies: Option<EnergySymbols>,
 }
 
-/// Kinetic and potential energy as symbols of their own.
+/// Symbols of the kinetic and potential energy and of their slopes.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct EnergySymbols {
-    /// K.
+    /// Kinetic energy K.
     pub kinetic: SymbolId,
-    /// U.
+    /// Potential energy U.
     pub potential: SymbolId,
-    /// ∂K/∂q_i at fixed velocities.
+    /// Slopes ∂K/∂q_i at fixed velocities.
     pub kinetic_slopes: Vec<SymbolId>,
-    /// ∂U/∂q_i.
+    /// Slopes ∂U/∂q_i.
     pub potential_slopes: Vec<SymbolId>,
 }
 
-/// Quantities that the rates of one frame refer to, as far as they do.
+/// Quantities that the rates of one frame use; unused ones are empty.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ObservableFrame {
-    /// Generalized accelerations; none where no rate holds them.
+    /// Generalized accelerations; empty if no rate contains them.
     pub accelerations: Vec<SymbolId>,
-    /// Accelerations by friction and drag alone: M a = Q.
+    /// System M a = Q for the accelerations caused by friction and drag alone.
     pub friction: Option<LinearSystem>,
-    /// Symbols that the program forms on means and differences, on nested
-    /// trees.
+    /// Symbols whose values the program computes on means and differences, for nested copies.
     pub nested: NestedSymbols,
-    /// Forces, slopes of H and changes of M in coordinates and velocities.
+    /// Definitions of forces, slopes of H and changes of M, in coordinates and velocities.
     pub definitions: BTreeMap<SymbolId, Expr>,
-    /// The momenta in coordinates and velocities; none where no observable
-    /// holds any.
+    /// Momenta in coordinates and velocities; empty if no observable contains a momentum.
     pub momentum: Vec<Expr>,
 }

@@ -1,5 +1,4 @@
-//! Positions of points of the links, what they change by with the angle, and the
-//! velocity that comes of it.
+//! Positions of points of the links, their derivatives by the angle, and their velocities.
 
 use super::algebra::Formula;
 use super::derivation::Derivation;
@@ -9,31 +8,31 @@ use super::print::latex_name;
 use crate::functions::LINK_PROPERTIES;
 use crate::scene::{LinkId, Offset};
 
-/// A point of a link, from the pivot of that link: x to the side, y upwards.
+/// A point of a link relative to the pivot of that link: x to the side and y upwards.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RelativePosition {
-    /// x, y.
+    /// Coordinates (x, y), in m.
     pub position: [Expr; 2],
-    /// Their derivatives by the link's angle.
+    /// Derivatives of (x, y) with respect to the link's angle, in m.
     pub lever: [Expr; 2],
-    /// Their rates.
+    /// Velocity of the point relative to the pivot, in m/s.
     pub velocity: [Expr; 2],
 }
 
-/// The points of a link.
+/// Points of a link.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LinkPositions {
-    /// Pivot of the link, on the parent; none of the root.
+    /// Pivot of the link, on its parent; `None` for the root.
     pub pivot: Option<RelativePosition>,
     /// Centre of mass of the link.
     pub centre: RelativePosition,
     /// End of the link.
     pub end: RelativePosition,
-    /// The properties of the link, in the order of [`Link::properties`](crate::scene::Link).
+    /// Properties of the link, in the order of [`Link::properties`](crate::scene::Link).
     pub properties: [Expr; LINK_PROPERTIES.len()],
 }
 
-/// Letters and words of a kind of points.
+/// Letters and words for one kind of points.
 struct Letters {
     code: &'static str,
     text: &'static str,
@@ -61,8 +60,8 @@ const END: Letters = Letters {
 };
 
 impl Derivation<'_> {
-    /// (x, y) of a point at these distances along and across a link, y against the direction
-    /// of links of angle 0.
+    /// Returns (x, y) of a point at the given distances along and across a link; y points against
+    /// the direction of links of angle 0.
     pub(super) fn point_at(
         &self,
         along: &Formula,
@@ -77,7 +76,8 @@ impl Derivation<'_> {
         ]
     }
 
-    /// A component along y of the equations, upwards; or one upwards, along that y.
+    /// Converts a component between the y axis of the equations and the upward direction, in either
+    /// direction.
     pub(super) fn upwards(&self, component: Formula) -> Formula {
         match self.scene.stands() {
             true => -component,
@@ -107,7 +107,7 @@ impl Derivation<'_> {
         positions.collect()
     }
 
-    /// A point that `owner` names, on a link.
+    /// Derives the position of a point on a link; `owner` names the point.
     fn position(
         &mut self,
         letters: Letters,

@@ -1,16 +1,17 @@
-//! Expressions as text and as LaTeX, for docs and for `cargo branched-pendulum stage`.
+//! Prints expressions as text and as LaTeX, for docs and for `cargo branched-pendulum stage`.
 
 use super::expression::{Expr, Symbols};
 use crate::exact::Rational;
 
-/// Spelling of the parts of an expression in one notation.
+/// Spellings of the parts of an expression in one notation.
 struct Notation {
     latex: bool,
-    /// Finite decimals are written as such, as descriptions write them.
+    /// True if terminating decimals are printed as decimals, as in descriptions, instead of as
+    /// fractions.
     decimals: bool,
 }
 
-/// The expression in plain text: `μ cos(θ_2 − θ_1) ω_1² / (2 M)`.
+/// Returns the expression in plain text: `μ cos(θ_2 − θ_1) ω_1² / (2 M)`.
 pub fn text(expr: &Expr, symbols: &Symbols) -> String {
     if let Expr::Number(number) = expr {
         return number.to_string();
@@ -22,7 +23,7 @@ pub fn text(expr: &Expr, symbols: &Symbols) -> String {
     notation.sum(expr, symbols)
 }
 
-/// The expression in LaTeX.
+/// Returns the expression in LaTeX.
 pub fn latex(expr: &Expr, symbols: &Symbols) -> String {
     let notation = Notation {
         latex: true,
@@ -31,9 +32,9 @@ pub fn latex(expr: &Expr, symbols: &Symbols) -> String {
     notation.sum(expr, symbols)
 }
 
-/// The value of a constant in plain text: `1 / 30 + 0.25 m`. A number in it is a decimal where
-/// it is a finite one, as [`Rational`] has it, and a fraction where not; in the formulas
-/// of motion ½ stays a fraction.
+/// Returns the value of a constant in plain text: `1 / 30 + 0.25 m`. Its numbers are printed as
+/// [`Rational`] prints them: terminating decimals as decimals, others as fractions. In formulas of
+/// motion ½ stays a fraction.
 pub fn constant_text(value: &Expr, symbols: &Symbols) -> String {
     if let Expr::Number(number) = value {
         return number.to_string();
@@ -45,7 +46,7 @@ pub fn constant_text(value: &Expr, symbols: &Symbols) -> String {
     notation.sum(value, symbols)
 }
 
-/// The value of a constant in LaTeX, with numbers as in [`constant_text`].
+/// Returns the value of a constant in LaTeX, with numbers as in [`constant_text`].
 pub fn constant_latex(value: &Expr, symbols: &Symbols) -> String {
     let notation = Notation {
         latex: true,
@@ -75,7 +76,7 @@ impl Notation {
         out
     }
 
-    /// A term without its sign, and whether that was minus.
+    /// Returns true if a term is negative, and the term without its sign.
     fn term(&self, term: &Expr, symbols: &Symbols) -> (bool, String) {
         let mut negative = false;
         let mut above = Vec::new();
@@ -114,7 +115,7 @@ impl Notation {
         (negative, body)
     }
 
-    /// Numerator and denominator of a number, the latter 1 of a decimal.
+    /// Returns numerator and denominator of a number; the denominator of a decimal is 1.
     fn number(&self, size: &Rational) -> (String, String) {
         match size.terminating_decimal() {
             Some(decimal) if self.decimals => (decimal, "1".to_owned()),
@@ -148,7 +149,7 @@ impl Notation {
         }
     }
 
-    /// cos² x, not cos x².
+    /// Writes a power of a function as cos² x instead of (cos x)².
     fn function_power(&self, spelled: &str, exponent: i32) -> String {
         let name_length = if self.latex { 4 } else { 3 };
         let (name, argument) = spelled.split_at(name_length);
@@ -163,7 +164,7 @@ impl Notation {
     }
 }
 
-/// A number in superscript: `²`, `⁻¹`.
+/// Returns a number in superscript: `²`, `⁻¹`.
 pub(crate) fn superscript(number: impl Into<i64>) -> String {
     const DIGITS: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
     let raised = |digit: char| match digit.to_digit(10) {
@@ -173,12 +174,12 @@ pub(crate) fn superscript(number: impl Into<i64>) -> String {
     number.into().to_string().chars().map(raised).collect()
 }
 
-/// A snake-case name inside `\mathrm{}`.
+/// Returns a snake-case name inside `\mathrm{}`.
 pub(super) fn latex_name(name: &str) -> String {
     name.replace('_', "\\_")
 }
 
-/// Names as the index of a letter, in code, in text and in LaTeX.
+/// Names as the index of a letter, spelled in code, in text and in LaTeX.
 pub(super) struct Index {
     pub(super) code: String,
     pub(super) text: String,

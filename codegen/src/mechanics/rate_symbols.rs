@@ -1,4 +1,4 @@
-//! Symbols that the rates of observables are written in.
+//! Symbols for the rates of observables.
 
 use super::algebra::Formula;
 use super::derivation::Derivation;
@@ -8,25 +8,24 @@ use super::observables::EnergySymbols;
 use super::print::latex_name;
 use crate::scene::{Coordinate, LinkId};
 
-/// Symbols that the rates of one frame are written in.
+/// Symbols for the rates of observables in one frame.
 pub(super) struct RateSymbols {
     pub(super) accelerations: Vec<SymbolId>,
     pub(super) friction_accelerations: Vec<SymbolId>,
-    /// ∂L/∂q_i at fixed velocities.
+    /// Forces ∂L/∂q_i at fixed velocities.
     pub(super) forces: Vec<SymbolId>,
-    /// Q_i.
+    /// Generalized forces Q_i of friction and drag.
     pub(super) torques: Vec<SymbolId>,
-    /// ∂H/∂q_i at fixed momenta.
+    /// Slopes ∂H/∂q_i at fixed momenta.
     pub(super) slopes: Vec<SymbolId>,
-    /// (Ṁ v)_i.
+    /// Products (Ṁ v)_i of the mass matrix's rate and the velocities.
     pub(super) changes: Vec<SymbolId>,
     /// True for coordinates i with friction.
     pub(super) has_torque: Vec<bool>,
 }
 
 impl Derivation<'_> {
-    /// K and U of a frame of which symbols alone are derived, with their
-    /// derivatives.
+    /// Creates symbols for the energies K and U and their derivatives, in a frame without formulas.
     pub(super) fn energies(&mut self, frame: &DerivedFrame) -> EnergySymbols {
         if let Some(known) = &self.energies {
             return known.clone();
@@ -50,7 +49,7 @@ impl Derivation<'_> {
         };
         let (kinetic, kinetic_slopes) = energy("kinetic_energy", "K");
         let (potential, potential_slopes) = energy("potential_energy", "U");
-        // ∂K/∂v_i = p_i
+        // ∂K/∂v_i = p_i.
         for (&velocity, &momentum) in frame.velocities.iter().zip(&frame.momenta) {
             let momentum = Formula::symbol(momentum);
             self.given_slopes.insert((kinetic, velocity), momentum);
@@ -118,7 +117,7 @@ impl Derivation<'_> {
         }
     }
 
-    /// Returns true for coordinates with friction.
+    /// Returns, for each coordinate, true if friction acts on it.
     fn has_torque(
         &self,
         absolute: &DerivedFrame,
@@ -144,7 +143,7 @@ impl Derivation<'_> {
         }
     }
 
-    /// One symbol for each coordinate of a frame.
+    /// Creates one symbol for each coordinate of a frame.
     pub(super) fn indexed_symbols(
         &mut self,
         frame: &DerivedFrame,
@@ -173,7 +172,7 @@ impl Derivation<'_> {
 }
 
 impl RateSymbols {
-    /// Σ slope_i Q_i over the coordinates that friction acts on.
+    /// Returns Σ slope_i Q_i over the coordinates on which friction acts.
     pub(super) fn torque(&self, slopes: &[Formula]) -> Formula {
         slopes
             .iter()

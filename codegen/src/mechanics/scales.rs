@@ -1,10 +1,11 @@
-//! Energies by scale, of one link in a tree whose copies are equal (physics §18).
+//! Energies by scale of one link, in a tree whose copies are equal (physics §18). Scale s contains
+//! all differences between the branches that begin in generation s; scale 0 contains the means.
 //!
-//! The part of a quantity in a scale is linear in it, and constants are those of a whole
-//! generation: what is derived here for one link holds for parts as for the whole. The
-//! energy of a scale is that of parts; its slopes in the angular velocity and in the
-//! angle come from it by the chain rule, through the velocities of all centres of mass
-//! that the link moves.
+//! The part of a quantity in a scale is linear in the quantity, and all links of a generation share
+//! their constants. Formulas derived here for one link therefore hold for such parts as well as for
+//! the whole. The energy of a scale is the energy of these parts. Its derivatives in the angular
+//! velocity and in the angle follow by the chain rule, through the velocities of all centres of
+//! mass that the link moves.
 
 use super::algebra::Formula;
 use super::body::{BodySymbols, LinkBody};
@@ -14,48 +15,51 @@ use super::joint_forces::{DerivedForces, JointForces};
 use super::laws::{kinetic, stored};
 use super::link::{LinkSymbols, Plane, dot, plus, times};
 
-/// Symbols of a link's scales beside those of its balance, its torques and its body.
+/// Symbols of a link's parts in a scale, in addition to those of its balance of forces, of its
+/// torques and of its body.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ScaleSymbols {
     /// Velocity V of the centre of mass.
     pub velocity: [SymbolId; 2],
-    /// Momentum C of all that hangs from the link.
+    /// Momentum C of the link's descendants.
     pub carried: [SymbolId; 2],
-    /// First moment B of the momentum, in the directions of v and of its derivative.
+    /// First moment B of the momentum, in the direction of the link and in that of its derivative.
     pub moment: [SymbolId; 2],
-    /// Parts in a scale: of V (two), ω, 1 − cos θ, sin θ, the strain of the spring.
+    /// Parts in a scale of the velocity V (two components), of ω, 1 − cos θ and sin θ, and of the
+    /// strain of the spring.
     pub parts: [SymbolId; 6],
-    /// Part of the springs' torques.
+    /// Part in a scale of the springs' torques.
     pub spring_part: SymbolId,
-    /// 1 for the means, 0 for other scales.
+    /// 1 for the means (scale 0), 0 for other scales.
     pub means: SymbolId,
     /// Angular velocity u along the flow of a scale's energy.
     pub flow: SymbolId,
     /// Change of the pivot's velocity along the flow, at constant ω.
     pub pivot_shift: [SymbolId; 2],
-    /// B of the changes of velocities along the flow.
+    /// First moment B of the changes of velocities along the flow.
     pub shift_moment: [SymbolId; 2],
 }
 
-/// Energies by scale of one link, and what changes them.
+/// Energies by scale of one link, and their derivatives.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LinkScales {
-    /// Symbols of the link.
+    /// Symbols of the link's parts in a scale.
     pub symbols: ScaleSymbols,
-    /// B, and the momentum of all that the parent carries in this link.
+    /// First moment B, and the contribution of this link and its descendants to the parent's
+    /// momentum C.
     pub moment: [Expr; 4],
-    /// Energy of parts.
+    /// Energy of the parts in a scale.
     pub energy: Expr,
-    /// Derivative of the energy in ω.
+    /// Derivative of the energy by ω.
     pub rate_slope: Expr,
     /// Changes of the velocities along the flow, at constant ω.
     pub shift: [Expr; 4],
-    /// Derivative of the energy in θ at constant ω, and what the flow changes in the
-    /// momentum M ω by the angles.
+    /// Derivative of the energy by θ at constant ω, and the change of the momentum M ω along the
+    /// flow caused by the angles.
     pub angle_slope: Expr,
 }
 
-/// Names of torques, velocities and what [`LinkScales`] holds, with their forms in LaTeX.
+/// Names of torques, velocities and the formulas in [`LinkScales`], in text and in LaTeX.
 const NAMES: [(&str, &str); 20] = [
     ("strain", "\\epsilon"),
     ("spring torque", "\\tau_{spring}"),
@@ -80,7 +84,8 @@ const NAMES: [(&str, &str); 20] = [
 ];
 
 impl LinkScales {
-    /// The formulas, in the order in which they are used, with those of torques and of the body.
+    /// Returns the formulas in the order of their use, together with those of the torques and of
+    /// the body.
     pub fn formulas(&self, forces: &JointForces, body: &LinkBody) -> Vec<NamedFormula> {
         let Self {
             symbols: _,
@@ -151,17 +156,18 @@ impl Derivation<'_> {
         let pair = |ids: [SymbolId; 2]| ids.map(symbol);
         let omega = symbol(link.omega);
         let [com, place] =
-            [link.com, link.place].map(|ids| self.link_lever(link, self.place_on_link(ids)));
+            [link.com, link.place].map(|ids| self.link_lever(link, self.point_on_link(ids)));
 
-        // Along a flow θ changes by u, and with it the levers.
+        // Along the flow θ changes by u, and the levers change with it.
         let flow = symbol(s.flow);
-        let bends = [&com, &place].map(|lever| times(&(&flow * &omega), &self.turned(link, lever)));
+        let bends = [&com, &place]
+            .map(|lever| times(&(&flow * &omega), &self.angle_derivative(link, lever)));
         let shift = bends.map(|bend| plus(&pair(s.pivot_shift), &bend));
 
         let energy = self.energy_of_parts(&s, link, forces, body);
 
-        // Momenta of parts, as sums over what a link moves: B is the moment of this
-        // momentum, of which constants alone make the part in a scale.
+        // Momenta of parts, as sums over all that a link moves. The part of B in a scale is the
+        // moment of this momentum, because only constants enter B.
         let impulse = [0, 1].map(|axis| {
             let part = energy.derivative(s.parts[axis]);
             part.substitute(&[(s.parts[axis], symbol(s.velocity[axis]))])
@@ -177,7 +183,7 @@ impl Derivation<'_> {
         let one = Formula::integer(1);
         let [cosine, sine] = pair(link.direction);
         let direction = [&one - &cosine, sine];
-        let heights = self.turned(link, &direction);
+        let heights = self.angle_derivative(link, &direction);
         let pulls = [3, 4].map(|part| energy.derivative(s.parts[part]));
         let angle_slope: Formula = [
             &omega * &self.partial(&momentum, link.angle),
@@ -200,7 +206,8 @@ impl Derivation<'_> {
         }
     }
 
-    /// Energy of the parts of a link in a scale; what lateral offsets weigh is that of the means.
+    /// Returns the energy of the parts of a link in a scale. The weight of lateral offsets
+    /// contributes to the means only.
     fn energy_of_parts(
         &self,
         s: &ScaleSymbols,
@@ -213,7 +220,7 @@ impl Derivation<'_> {
         let [v_x, v_y, rate, rise, side, strain] = s.parts.map(symbol);
         let moved = kinetic([&mass, &inertia], &[v_x, v_y], &rate);
         let gravity = symbol(body.gravity);
-        let [along, across] = self.place_on_link(body.carried_moment);
+        let [along, across] = self.point_on_link(body.carried_moment);
         let squares = &rise.pow(2) + &side.pow(2);
         let weight = &(&(&gravity * &along) * &squares) / &Formula::integer(2);
         let lateral = &(&(&gravity * &across) * &symbol(s.means)) * &side;

@@ -1,9 +1,8 @@
-//! Ingredients of the sectors' energies and transfers (physics §3, §5): the
-//! constants of each orbit, once for all its copies.
+//! Constants for the energies and transfers of sectors (sets of symmetric coordinates: all means,
+//! or one difference between copies) (physics §3, §5), once per orbit (equal copies of one link).
 //!
-//! On a nested tree the formulas in symmetric coordinates would fill pages; the
-//! program is formed from these constants by arithmetic on means and
-//! differences instead.
+//! For nested copies the formulas in symmetric coordinates would fill pages. The program is built
+//! from these constants instead and computes with means and differences.
 
 use super::algebra::Formula;
 use super::derivation::Derivation;
@@ -11,61 +10,62 @@ use super::expression::Expr;
 use super::frame::DerivedFrame;
 use crate::scene::{Coordinate, LinkId, SectorVariables, sectors};
 
-/// Constants of the links of one orbit beside those of their joint, see
-/// [`Articulation`](super::Articulation); each is an expression in named constants, parameters
-/// and numbers, zero where the scene has no such thing.
+/// Constants of the links of one orbit, in addition to those of their joint, see
+/// [`Articulation`](super::Articulation). Each is an expression in named constants, parameters and
+/// numbers; those that the scene lacks are zero.
 #[derive(Clone, Debug, PartialEq)]
 pub struct OrbitConstants {
-    /// Mass.
+    /// Mass m.
     pub mass: Expr,
-    /// Moment of inertia about the centre of mass.
+    /// Moment of inertia I about the centre of mass.
     pub inertia: Expr,
-    /// Centre of mass from the link's pivot, along and across.
+    /// Centre of mass relative to the link's pivot, along and across the link.
     pub com: [Expr; 2],
-    /// G in G (1 − cos θ).
+    /// Constant G of the potential energy G (1 − cos θ).
     pub gravity: Expr,
-    /// F in F sin θ, of lateral offsets.
+    /// Constant F of the potential energy F sin θ, from lateral offsets.
     pub lateral_gravity: Expr,
-    /// Functions of time c, s, τ in the generalized force of the drive,
-    /// Q = s cos θ − c sin θ + τ.
+    /// Functions of time c, s and τ that determine the generalized force of the drive on a link, Q
+    /// = s cos θ − c sin θ + τ.
     pub drive: [Expr; 3],
 }
 
-/// Entry of the mass matrix between the links of an orbit and those of an
-/// ancestor's: cosine · cos(θ_row − θ_column) + sine · sin(θ_row − θ_column).
+/// Entry of the mass matrix between the links of an orbit and those of an ancestor orbit: cosine ·
+/// cos(θ_row − θ_column) + sine · sin(θ_row − θ_column).
 #[derive(Clone, Debug, PartialEq)]
 pub struct OrbitCoupling<V = Expr> {
-    /// Orbit of the descendants.
+    /// Index of the descendants' orbit.
     pub row: usize,
-    /// Orbit of the ancestors.
+    /// Index of the ancestors' orbit.
     pub column: usize,
-    /// Factor of the cosine.
+    /// Factor of the cosine of the angle between the two links.
     pub cosine: V,
-    /// Factor of the sine.
+    /// Factor of the sine of the angle between the two links.
     pub sine: V,
 }
 
-/// Straight springs between the copies of a group: Γ beside G in the sectors of their differences.
+/// Straight springs between the copies of a group: the constant Γ that adds to gravity's G in the
+/// sectors of their differences.
 #[derive(Clone, Debug, PartialEq)]
 pub struct OrbitChord<V = Expr> {
     /// Index of the group in the scene.
     pub group: usize,
-    /// Orbit of the copies.
+    /// Index of the copies' orbit.
     pub orbit: usize,
-    /// Γ.
+    /// Constant Γ of the springs between copies, in J.
     pub weight: V,
 }
 
-/// The mechanics of a scene by orbits.
+/// Mechanics of a scene by orbits and sectors.
 #[derive(Clone, Debug, PartialEq)]
 pub struct OrbitMechanics {
-    /// Constants of each orbit of the scene, in its order.
+    /// Constants of each orbit, in the scene's order.
     pub orbits: Vec<OrbitConstants>,
-    /// Couplings of orbits to those above them, none of them zero.
+    /// Nonzero couplings between orbits and their ancestors.
     pub couplings: Vec<OrbitCoupling>,
     /// Straight springs between copies.
     pub chords: Vec<OrbitChord>,
-    /// The sectors: the in-phase one, then the differences, outer branchings
+    /// Sectors: first the in-phase one (means), then the differences, those of outer branchings
     /// first.
     pub sectors: Vec<SectorVariables>,
     /// True if springs between links couple sectors.
@@ -73,7 +73,7 @@ pub struct OrbitMechanics {
 }
 
 impl OrbitMechanics {
-    /// Group and number of the difference of each sector; `None` for the means.
+    /// Returns the group and the number of the difference of each sector; `None` for the means.
     pub fn differences(&self) -> Vec<Option<(usize, usize)>> {
         let sectors = self.sectors.iter();
         sectors.map(|sector| sector.difference).collect()
@@ -81,8 +81,8 @@ impl OrbitMechanics {
 }
 
 impl Derivation<'_> {
-    /// Reads the constants of each orbit out of the Lagrangian of the absolute
-    /// angles; one link stands for all of its orbit.
+    /// Derives the constants of each orbit from the Lagrangian in absolute angles; one link
+    /// represents its orbit.
     pub(super) fn sectors(
         &mut self,
         frame: &DerivedFrame,

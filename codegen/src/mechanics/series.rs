@@ -1,10 +1,10 @@
-//! W to any order, from the series of the velocities.
+//! Energy transfer W to any order, from a series expansion of the velocities.
 //!
-//! With M̃ = Σ εᵏ M⁽ᵏ⁾ and p = Σ εⁿ p⁽ⁿ⁾, M̃ q̇ = p gives order by order
-//! M⁽⁰⁾ q̇⁽ⁿ⁾ = p⁽ⁿ⁾ − Σ_{k≥1} M⁽ᵏ⁾ q̇⁽ⁿ⁻ᵏ⁾: one solve with the same block an
-//! order, and never a written-out inverse. The exact W, which is a polynomial
-//! in the velocities, is then cut off at the order asked for. What the Poisson
-//! bracket with the expanded Hamiltonian gives to low orders must come out.
+//! With M̃ = Σ εᵏ M⁽ᵏ⁾ and p = Σ εⁿ p⁽ⁿ⁾, the equation M̃ q̇ = p gives order by order M⁽⁰⁾ q̇⁽ⁿ⁾ =
+//! p⁽ⁿ⁾ − Σ_{k≥1} M⁽ᵏ⁾ q̇⁽ⁿ⁻ᵏ⁾. Each order takes one solve with the same matrix, and no inverse is
+//! written out. The exact W, a polynomial in the velocities, is then truncated at the requested
+//! order. At low orders the result equals that of the Poisson bracket with the expanded
+//! Hamiltonian.
 
 use super::algebra::Formula;
 use super::derivation::Derivation;
@@ -17,16 +17,17 @@ use super::{Correction, EnergyParts};
 use crate::functions::Counting;
 use crate::scene::Coordinate;
 
-/// The velocities as a series in ε, in the symbols of `corrections`.
+/// Velocities as a power series in ε (the size of the differences), expressed in the symbols of
+/// `corrections`.
 pub(super) struct VelocitySeries {
     pub(super) counting: Counting,
     pub(super) corrections: Vec<Correction<Formula>>,
-    /// q̇⁽ⁿ⁾ by order and coordinate.
+    /// Terms q̇⁽ⁿ⁾, by order n and coordinate.
     orders: Vec<Vec<Formula>>,
 }
 
 impl Derivation<'_> {
-    /// The series of the velocities through `order`.
+    /// Expands the velocities up to `order`.
     pub(super) fn velocity_series(
         &mut self,
         frame: &DerivedFrame,
@@ -89,7 +90,7 @@ impl Derivation<'_> {
         }
         for &d in &expansion.differences {
             let value = (&right[d] / &expansion.orders[0].get(d, d)).expand();
-            // The lowest order is short and stays as it is.
+            // The lowest order is short and needs no symbol.
             velocities[d] = if level <= 1 || value.is_zero() {
                 value
             } else {
@@ -120,10 +121,11 @@ impl Derivation<'_> {
         )
     }
 
-    /// W through `order`: the exact parts with the velocities' series in them.
+    /// Returns the transfer W truncated at `order`: the parts of the exact W, in which the
+    /// velocities are replaced by their series.
     ///
-    /// With [`Counting::Angle`], K is meant through that order and differentiated
-    /// then, so that ∂K/∂q counts one order less.
+    /// With [`Counting::Angle`], K is truncated at that order and then differentiated, so that
+    /// ∂K/∂q has one order less.
     pub(super) fn series_transfer(
         &mut self,
         frame: &DerivedFrame,
@@ -169,7 +171,7 @@ impl Derivation<'_> {
 }
 
 impl VelocitySeries {
-    /// Velocity symbols → Σ εⁿ q̇⁽ⁿ⁾.
+    /// Returns the replacements of the velocity symbols by Σ εⁿ q̇⁽ⁿ⁾.
     fn replacements(
         &self,
         derivation: &mut Derivation<'_>,

@@ -1,4 +1,4 @@
-//! A scene's mechanics as text, for `cargo branched-pendulum stage mechanics`.
+//! Prints a scene's mechanics, for `cargo branched-pendulum stage mechanics`.
 
 use super::expression::{Expr, SymbolId};
 use super::{
@@ -6,6 +6,7 @@ use super::{
     OrbitMechanics, RelativePosition, Temporal, TransferFormulas, constant_text, text,
 };
 use crate::scene::CoordinateKind;
+use std::collections::BTreeSet;
 use std::fmt;
 
 impl fmt::Display for Mechanics {
@@ -38,6 +39,17 @@ impl fmt::Display for Mechanics {
         }
         if let Some(transverse) = &self.transverse {
             self.transverse(f, transverse)?;
+        }
+        if let Some(normal_form) = &self.normal_form {
+            writeln!(f, "normal form of degree 4")?;
+            let all: Vec<SymbolId> = normal_form
+                .definitions
+                .iter()
+                .map(|own| own.symbol)
+                .collect();
+            for formula in normal_form.formulas(&self.symbols, &all, &BTreeSet::new()) {
+                self.line(f, &formula.left, &formula.right)?;
+            }
         }
         if let Some(frame) = &self.symmetric {
             writeln!(f, "symmetric coordinates")?;
@@ -80,7 +92,7 @@ impl Mechanics {
         Ok(())
     }
 
-    /// The inverse mass matrix in orders of the differences.
+    /// Prints the inverse mass matrix by orders of the differences.
     fn expansion(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         if let Some(expansion) = &self.expansion {
             writeln!(f, "in-phase velocities: M⁽⁰⁾ w = p")?;
@@ -139,7 +151,7 @@ impl Mechanics {
         Ok(())
     }
 
-    /// Each point from the pivot that it is measured from, with its rates.
+    /// Prints each point relative to its reference pivot, with its rates.
     fn positions(&self, f: &mut fmt::Formatter<'_>, links: &[LinkPositions]) -> fmt::Result {
         writeln!(f, "positions from the pivot of the link that they are on")?;
         for (&angle, link) in self.absolute.coordinates.iter().zip(links) {
@@ -327,7 +339,8 @@ impl Mechanics {
         self.line(f, &format!("W_P, {name}"), &parts.potential)
     }
 
-    /// The sectors, and their blocks of the mass matrix at the in-phase motion.
+    /// Prints the sectors (sets of symmetric coordinates: all means, or one difference between
+    /// copies), with their blocks of the mass matrix at the in-phase motion.
     fn sectors(&self, f: &mut fmt::Formatter<'_>, sectors: &OrbitMechanics) -> fmt::Result {
         for sector in &sectors.sectors {
             writeln!(

@@ -1,10 +1,11 @@
-//! Small differences beside a motion in phase as text.
+//! Prints small differences of an in-phase motion.
 
 use super::{Mechanics, SmallFormulas, SmallMechanics, TransverseFormulas, TransverseMechanics};
 use std::fmt;
 
 impl Mechanics {
-    /// The equations of each sector, M δ̈ + r = 0, and its energy.
+    /// Prints the equations of each sector (small differences between copies in phase), M δ̈ + r =
+    /// 0, and its energy.
     pub(super) fn transverse(
         &self,
         f: &mut fmt::Formatter<'_>,
@@ -37,7 +38,7 @@ impl Mechanics {
             .try_for_each(|small| self.small(f, all, small))
     }
 
-    /// Terms that differences which act back add to the equations of the in-phase motion.
+    /// Prints the terms that small differences add to the in-phase equations.
     fn small(
         &self,
         f: &mut fmt::Formatter<'_>,

@@ -1,10 +1,11 @@
-//! Springs and friction between copies that move in phase, of which their small differences
-//! alone know.
+//! Springs and friction between copies that move in phase. Only the small differences between the
+//! copies feel them.
 //!
-//! Let k copies have the angles θ + e_c δ with Σ e_c = 0 and Σ e_c² = k. The springs κ between
-//! every two of them have the energy ½ κ Σ (e_a − e_b)² δ² = ½ κ k² δ², and friction dissipates
-//! likewise: as a spring and friction k² as strong between the link that stands for the copies
-//! and its motion in phase, for each of their holders.
+//! Let k copies have the angles θ + e_c δ with Σ e_c = 0 and Σ e_c² = k. Springs κ between every
+//! two of them have the energy ½ κ Σ (e_a − e_b)² δ² = ½ κ k² δ², and friction dissipates
+//! correspondingly. They therefore act as a spring and friction, k² times as strong, between the
+//! link that represents the copies and its in-phase motion, once per holder (link that holds such
+//! copies).
 
 use super::algebra::Formula;
 use super::derivation::Derivation;
@@ -15,11 +16,11 @@ use super::frame::DerivedFrame;
 use super::laws::{dissipated, stored};
 use super::letters;
 use super::meaning::JointDifference;
-use crate::scene::{FrictionPlace, LinkId, PassiveTorques};
+use crate::scene::{FrictionContact, LinkId, PassiveTorques};
 
 impl Derivation<'_> {
-    /// The frame with what acts between copies in phase. The symbols of their differences, zero
-    /// in phase, go to `small`.
+    /// Returns the frame with the springs and friction between copies in phase. Adds the symbols of
+    /// their differences, which are zero in phase, to `small`.
     pub(super) fn with_siblings(
         &mut self,
         frame: &DerivedFrame,
@@ -63,7 +64,7 @@ impl Derivation<'_> {
         }
     }
 
-    /// The difference between the copies that a link stands for, and its rate.
+    /// Returns the difference between the copies that a link represents, and its rate.
     fn differences_in_phase(
         &mut self,
         frame: &DerivedFrame,
@@ -83,7 +84,7 @@ impl Derivation<'_> {
                 small.rate(link),
             ),
         ];
-        // Of several springs between the same copies each has a number.
+        // Several springs between the same copies are distinguished by a number.
         let numbers = words.constants.iter().skip(2);
         let names: Vec<&String> = std::iter::once(&self.scene.links[link].name)
             .chain(numbers)
@@ -97,7 +98,7 @@ impl Derivation<'_> {
         })
     }
 
-    /// Slope c + C/ε + q ε of the torque of friction where nothing turns.
+    /// Returns the slope c + C/ε + q ε of the friction torque at zero rate.
     fn friction_at_rest(&mut self, words: &ElementWords, passive: &PassiveTorques) -> Formula {
         let mut slope = Formula::zero();
         if !passive.friction.is_zero() {
@@ -105,9 +106,9 @@ impl Derivation<'_> {
             let value = self.quantity(&passive.friction);
             slope = self.lettered(letters::FRICTION, &words.constants, &meaning, value);
         }
-        let law = passive.law(FrictionPlace::Joint);
+        let law = passive.law(FrictionContact::Joint);
         if !law.is_none() {
-            let [coulomb, quadratic, width] = self.name_law(words, FrictionPlace::Joint, law);
+            let [coulomb, quadratic, width] = self.name_law(words, FrictionContact::Joint, law);
             slope = &slope + &(&(&coulomb / &width) + &(&quadratic * &width));
         }
         slope

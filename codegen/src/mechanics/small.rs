@@ -1,11 +1,11 @@
-//! Small differences that act back on the motion that they are beside.
+//! Small differences that act back on the in-phase motion.
 //!
-//! With copies at θ + e δ, Σ e = 0 and Σ e² = their number, the Lagrangian of the whole
-//! tree is L₀(θ, ω) + L₂(θ, ω; δ, δ̇) to second order, where L₂ is half the second
-//! derivative of L₀ along (δ, δ̇), for one of the holders. All equations follow from the
-//! sum, so that the model keeps an energy of its own. The Euler–Lagrange operator is linear:
-//! those of θ get half the second derivative of their own terms, and those of δ are
-//! the transverse equations at the accelerations that come of it.
+//! With copies at θ + e δ, Σ e = 0 and Σ e² = their number, the Lagrangian of the whole tree is
+//! L₀(θ, ω) + L₂(θ, ω; δ, δ̇) to second order. Here L₂ is half the second derivative of L₀ along
+//! (δ, δ̇), for one holder (link that holds such copies). All equations follow from this sum, so
+//! that the model has a conserved energy. The Euler–Lagrange operator is linear: the equations of θ
+//! get half the second derivative of their own terms, and the equations of δ are the transverse
+//! ones at the resulting accelerations.
 
 use super::MatrixEntry;
 use super::algebra::Formula;

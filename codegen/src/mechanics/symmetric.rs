@@ -1,5 +1,5 @@
-//! The Lagrangian in symmetric coordinates (physics §3), by substitution into
-//! the absolute one.
+//! The Lagrangian in symmetric coordinates (physics §3), by substitution into the one in absolute
+//! angles.
 
 use super::algebra::Formula;
 use super::derivation::Derivation;
@@ -10,7 +10,7 @@ use super::mismatch::CopyConstants;
 use crate::scene::{Coordinate, CoordinateKind, Group, LinkId};
 use std::collections::BTreeMap;
 
-/// cos and sin of an integer combination of angles, by angle addition.
+/// Cosine and sine of an integer combination of angles, by angle addition.
 #[derive(Clone)]
 pub(super) struct Rotation {
     pub(super) cos: Formula,
@@ -41,8 +41,8 @@ impl Rotation {
 }
 
 impl Derivation<'_> {
-    /// The Lagrangian in symmetric coordinates, by substitution of
-    /// θ = J q into the absolute one: M̃ = Jᵀ M J.
+    /// Derives the Lagrangian in symmetric coordinates q by substituting θ = J q into the one in
+    /// absolute angles: M̃ = Jᵀ M J.
     pub(super) fn symmetric_frame(
         &mut self,
         absolute: &DerivedFrame,
@@ -66,7 +66,7 @@ impl Derivation<'_> {
         let mut replacements = self.substitution(absolute, &ids, &rows);
         replacements.extend(constants.replacements.iter().cloned());
         let mass = transformed_mass(&absolute.mass, &rows, &replacements);
-        // Angles and velocities transform alike: θ = J q, ω = J q̇.
+        // Velocities transform like angles: θ = J q, ω = J q̇.
         let angles = transformed(&absolute.coordinates, &ids, &rows);
         let rates = transformed(&absolute.velocities, &velocities, &rows);
         let mut joints =
@@ -81,7 +81,7 @@ impl Derivation<'_> {
             .substitute(&with_constants(&angles))
             .expand();
         let gravity = self.symmetric_sum(absolute, &absolute.potential, &replacements);
-        // A torque's work is linear in the root's angle, which stays one.
+        // The work of a torque is linear in the root's angle, which is itself a coordinate.
         let moment = self.symmetric_sum(absolute, &absolute.drive, &replacements);
         let torque: Formula = angles
             .iter()
@@ -104,8 +104,9 @@ impl Derivation<'_> {
         frame
     }
 
-    /// The torques, by what their arguments become: of equal copies together, whose parts
-    /// `in_rates` takes up.
+    /// Expresses the friction torques, and the rates on which they depend, in the new coordinates.
+    /// Torques of equal copies are transformed together; their replacements are added to
+    /// `in_rates`.
     fn transformed_torques(
         &mut self,
         absolute: &DerivedFrame,
@@ -125,8 +126,8 @@ impl Derivation<'_> {
         torques.into_iter().chain(pairs).collect()
     }
 
-    /// cos and sin of every absolute angle, and of every difference that the
-    /// mass matrix holds, in the new coordinates.
+    /// Returns cos and sin of every absolute angle, and of every difference in the mass matrix, in
+    /// the new coordinates.
     fn substitution(
         &mut self,
         absolute: &DerivedFrame,
@@ -162,9 +163,8 @@ impl Derivation<'_> {
         replacements
     }
 
-    /// The rotation by a link's angle, or by the difference of two links'
-    /// angles. Means enter as one difference, so that code and formulas keep
-    /// cos(θ_m − θ_1) whole.
+    /// Returns the rotation by a link's angle, or by the difference of two links' angles. Means
+    /// enter as one difference, so that cos(θ_m − θ_1) stays a single symbol in code and formulas.
     fn rotation(
         &mut self,
         ids: &[SymbolId],
@@ -197,14 +197,13 @@ impl Derivation<'_> {
         start.then(&self.share(&share))
     }
 
-    /// The rotation by a sum of differences, group by group.
+    /// Returns the rotation by a sum of differences, group by group.
     ///
-    /// Written as 1 − vers, what must vanish while the copies of a group are
-    /// in phase has only terms that vanish one by one, whatever the groups
-    /// around it do: the ones cancel exactly, before any number is rounded.
-    /// Cosines would have to cancel by rounding, and leave a remainder between
-    /// more than two copies (2 cos + cos − 3 cos) and between the cosines of
-    /// different groups. Where neither occurs they stay, as short as on paper.
+    /// It is written with 1 − vers. A quantity that vanishes while the copies of a group are in
+    /// phase then consists of terms that vanish one by one, for any motion of other groups: the ones
+    /// cancel exactly, before any number is rounded. Cosines would have to cancel by rounding, and
+    /// would leave a remainder between more than two copies (2 cos + cos − 3 cos) and between the
+    /// cosines of different groups. Where neither occurs cosines are kept, as short as on paper.
     pub(super) fn share(&mut self, share: &[(SymbolId, i64)]) -> Rotation {
         let mut by_group: BTreeMap<usize, Vec<(SymbolId, i64)>> = BTreeMap::new();
         for &(coordinate, weight) in share {
@@ -222,7 +221,7 @@ impl Derivation<'_> {
             })
     }
 
-    /// Returns true if all groups have two copies and none hangs in another.
+    /// Returns true if all groups have two copies and none is inside another.
     fn has_plain_cosines(&self) -> bool {
         let groups = &self.scene.groups;
         let nested = |group: &Group| {
@@ -266,10 +265,10 @@ impl Derivation<'_> {
         }
     }
 
-    /// A sum of multiples of 1 − cos θ and sin θ, as the energy in gravity is: node by node as
-    /// G (n − Σ cos θ) with the mean G of its links, since the sum over them is what becomes
-    /// short, and the difference from its rest value stays one. What copies that differ add
-    /// is a multiple of mismatches.
+    /// Transforms a sum of multiples of 1 − cos θ and sin θ, such as the gravitational energy. Each
+    /// node contributes G (n − Σ cos θ), with the number n and the mean G of its links: the sum of
+    /// cosines simplifies, and the difference from the value at rest stays explicit. Copies that
+    /// differ add multiples of mismatches (deviations from the mean constants).
     fn symmetric_sum(
         &self,
         absolute: &DerivedFrame,
@@ -313,7 +312,7 @@ impl Derivation<'_> {
     }
 }
 
-/// J of θ = J q: of each link its coordinates, with their weights.
+/// Returns J of θ = J q: for each link its coordinates and their weights.
 fn transformation(coordinates: &[Coordinate], links: usize) -> Vec<Vec<(usize, i64)>> {
     let mut rows = vec![Vec::new(); links];
     for (column, coordinate) in coordinates.iter().enumerate() {
@@ -324,7 +323,7 @@ fn transformation(coordinates: &[Coordinate], links: usize) -> Vec<Vec<(usize, i
     rows
 }
 
-/// M̃ = Jᵀ M J, with what stands in M replaced.
+/// Returns M̃ = Jᵀ M J, with the entries of M transformed by `replacements`.
 fn transformed_mass(
     mass: &MassMatrix,
     rows: &[Vec<(usize, i64)>],
@@ -345,7 +344,7 @@ fn transformed_mass(
     transformed.map(|_, _, sum| sum.expand())
 }
 
-/// What each `old` symbol becomes: the row of J times the `new` ones.
+/// Returns the replacement of each `old` symbol: the row of J times the `new` ones.
 fn transformed(
     old: &[SymbolId],
     new: &[SymbolId],
@@ -362,8 +361,8 @@ fn transformed(
         .collect()
 }
 
-/// The mean of a link's row, and its differences. Means come before
-/// differences in the order of coordinates.
+/// Splits a link's row into its mean and its differences. Means come before differences in the
+/// order of coordinates.
 fn split(row: &[(usize, i64)]) -> (usize, &[(usize, i64)]) {
     match row.split_first() {
         Some((&(mean, _), differences)) => (mean, differences),

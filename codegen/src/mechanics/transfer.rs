@@ -1,5 +1,5 @@
-//! Sub-Hamiltonians of the differences and the energy transfer W into them
-//! (physics §5).
+//! Energies H_d of the differences (sub-Hamiltonians), and the energy transfer W into them (physics
+//! §5).
 
 use super::EnergyParts;
 use super::algebra::Formula;
@@ -10,24 +10,22 @@ use super::inverse_mass::DerivedExpansion;
 use crate::functions::Counting;
 use crate::scene::{Coordinate, CoordinateKind, LinkId, OrbitId};
 
-/// A difference's energy H_d = T + V.
+/// Energy H_d = T + V of a difference.
 pub(super) struct SubHamiltonian {
     /// Index of the difference among the coordinates.
     pub(super) coordinate: usize,
     pub(super) kinetic: Formula,
-    /// V in Λ = G + Γ.
+    /// Potential part V, written with Λ = G + Γ (gravity plus straight springs).
     pub(super) potential: Formula,
-    /// V in G and Γ, which have parts of their own in U.
+    /// Potential part V, written with G and Γ, which are separate terms of U.
     pub(super) potential_apart: Formula,
 }
 
 impl Derivation<'_> {
-    /// H_d of one difference of a group of leaves: T = p_d²/(2 M̃_dd) and the
-    /// potential that Parseval's identity gives it,
-    /// V = G/(2n) |Σ_j w_j e^{iθ_j}|² with the weights w of the difference
-    /// and n = Σ w². For a pair, T = p_d²/(4M) and V = G sin²θ_d. A torsion
-    /// spring in the pivots adds its own ½ κ n θ_d². Straight springs between the copies add
-    /// their Γ to G, together Λ.
+    /// Derives H_d of one difference between leaves. T = p_d²/(2 M̃_dd). The potential part follows
+    /// from Parseval's identity, V = G/(2n) |Σ_j w_j e^{iθ_j}|², with the weights w of the
+    /// difference and n = Σ w². For a pair, T = p_d²/(4M) and V = G sin²θ_d. Torsion springs in the
+    /// pivots add ½ κ n θ_d². Straight springs between the copies add their Γ to G, together Λ.
     pub(super) fn sub_hamiltonian(
         &mut self,
         frame: &DerivedFrame,
@@ -50,15 +48,15 @@ impl Derivation<'_> {
             cosines.push(&weight * &cos);
             sines.push(&weight * &sin);
         }
-        // Left as a sum of squares: multiplied out, small differences would
-        // drown in the rounding of terms that cancel.
+        // Kept as a sum of squares: multiplied out, small differences would be lost in the rounding
+        // of terms that cancel.
         let square = |terms: Vec<Formula>| terms.into_iter().sum::<Formula>().expand().pow(2);
         let modulus = &square(cosines) + &square(sines);
         let reduced = self.reduce(&modulus, frame, &expansion.differences);
         let modulus = if reduced.is_term() { reduced } else { modulus };
         let gravity = self.gravity_of(orbit);
         let weights = self.restoring(&coordinates[coordinate], gravity);
-        // Differences are orthogonal: no spring couples two of them.
+        // Differences are orthogonal, so a spring in a pivot couples no two of them.
         let angle = frame.coordinates[coordinate];
         let stiffness = self.partial(&self.partial(&frame.springs, angle), angle);
         let half = Formula::integer(2).pow(-1);
@@ -75,7 +73,8 @@ impl Derivation<'_> {
         }
     }
 
-    /// cos and sin of θ_link − θ_mean: the differences' share of an angle.
+    /// Returns cos and sin of θ_link − θ_mean, the deviation of a link's angle from the mean, which
+    /// is a sum of differences.
     fn relative_rotation(
         &mut self,
         frame: &DerivedFrame,
@@ -95,8 +94,8 @@ impl Derivation<'_> {
         (rotation.cos, rotation.sin)
     }
 
-    /// The constant G of an orbit's node, of copies that differ their mean; zero where nothing
-    /// hangs off the pivot.
+    /// Returns the constant G of the node of an orbit (set of equal copies of one link), or the
+    /// mean over copies that differ; zero if no weight hangs off the pivot.
     fn gravity_of(&self, orbit: OrbitId) -> Formula {
         let name = &self.scene.orbits[orbit.0].node;
         match self.symbols.find(&format!("G_{name}")) {
@@ -105,7 +104,7 @@ impl Derivation<'_> {
         }
     }
 
-    /// cos² → 1 − sin² of every difference, so that equal formulas look equal.
+    /// Replaces cos² by 1 − sin² for every difference, so that equal formulas become identical.
     pub(super) fn reduce(
         &self,
         formula: &Formula,
@@ -130,7 +129,7 @@ impl Derivation<'_> {
         reduced
     }
 
-    /// The canonical pairs of the differences.
+    /// Returns the canonical pairs (coordinate, momentum) of the differences.
     pub(super) fn difference_pairs(
         frame: &DerivedFrame,
         expansion: &DerivedExpansion,
@@ -142,9 +141,9 @@ impl Derivation<'_> {
             .collect()
     }
 
-    /// W to first order in the difference angles, momenta untouched, as in the
-    /// paper: {H_d, K − T} with K to that order, and {H_d, U − V}, both then
-    /// cut off at that order.
+    /// Returns W to first order in the difference angles, without expansion in the momenta, as in
+    /// the paper: {H_d, K − T} with K to that order, and {H_d, U − V}, both truncated at that
+    /// order.
     pub(super) fn angle_transfer(
         &mut self,
         frame: &DerivedFrame,
@@ -155,8 +154,8 @@ impl Derivation<'_> {
         self.truncated(frame, expansion, energy, &kinetic, Counting::Angle, 1)
     }
 
-    /// W to second order in the amplitude: the complete quadratic form in the
-    /// differences and their momenta.
+    /// Returns W to second order in the amplitude: the complete quadratic form in the differences
+    /// and their momenta.
     pub(super) fn amplitude_transfer(
         &mut self,
         frame: &DerivedFrame,
@@ -178,8 +177,8 @@ impl Derivation<'_> {
     ) -> EnergyParts<Formula> {
         let pairs = Self::difference_pairs(frame, expansion);
         let whole = &energy.kinetic + &energy.potential;
-        // K − T: the leading kinetic energy of the differences is Σ T, of
-        // which only this difference's own T does not commute with H_d.
+        // K − T: the leading kinetic energy of the differences is Σ T. Of this sum only the
+        // difference's own T does not commute with H_d.
         let from_kinetic = self.poisson_bracket(&pairs, &whole, kinetic);
         let others = self.other_kinetic(frame, expansion, energy.coordinate);
         let from_others = self.poisson_bracket(&pairs, &whole, &others);
@@ -195,7 +194,7 @@ impl Derivation<'_> {
         }
     }
 
-    /// Σ p_s²/(2 M_ss) over the differences other than `coordinate`.
+    /// Returns Σ p_s²/(2 M_ss) over the differences other than `coordinate`.
     fn other_kinetic(
         &self,
         frame: &DerivedFrame,
@@ -213,10 +212,10 @@ impl Derivation<'_> {
             .sum()
     }
 
-    /// W exactly, with velocities at hand: dF/dt = Σ ∂F/∂q q̇ + ∂F/∂p ∂L/∂q.
-    /// Kinetic part: {H_d, K − T}, a sum over the differences s of
-    /// ∂V/∂q_s (q̇_s − ∂T/∂p_s) and ∂T/∂p_s ∂K/∂q_s at fixed q̇. Potential
-    /// part: {H_d, U − V}. Conservative: what friction takes is separate.
+    /// Returns the exact W, given the velocities: dF/dt = Σ ∂F/∂q q̇ + ∂F/∂p ∂L/∂q. The kinetic
+    /// part {H_d, K − T} is a sum over the differences s of ∂V/∂q_s (q̇_s − ∂T/∂p_s) and ∂T/∂p_s
+    /// ∂K/∂q_s at fixed q̇. The potential part is {H_d, U − V}. Only conservative forces are
+    /// included; friction is separate.
     pub(super) fn exact_transfer(
         &mut self,
         frame: &DerivedFrame,
@@ -247,7 +246,7 @@ impl Derivation<'_> {
         }
     }
 
-    /// The power of friction on H_d: Σ ∂H_d/∂p_s Q_s, Q = −∂R/∂q̇.
+    /// Returns the power of friction on H_d: Σ ∂H_d/∂p_s Q_s with Q = −∂R/∂q̇.
     pub(super) fn friction_power(&self, frame: &DerivedFrame, energy: &SubHamiltonian) -> Formula {
         let s = energy.coordinate;
         let velocity = self.own_velocity(frame, energy);
@@ -255,15 +254,15 @@ impl Derivation<'_> {
         (&velocity * &torque).expand()
     }
 
-    /// The power of the drive on H_d: Σ ∂H_d/∂p_s Q_s. A torque on the root
-    /// acts on no difference.
+    /// Returns the power of the drive on H_d: Σ ∂H_d/∂p_s Q_s. A torque on the root does not act on
+    /// differences.
     pub(super) fn drive_power(&self, frame: &DerivedFrame, energy: &SubHamiltonian) -> Formula {
         let s = energy.coordinate;
         let velocity = self.own_velocity(frame, energy);
         (&velocity * &frame.drive_forces(self)[s]).expand()
     }
 
-    /// ∂H_d/∂p_d.
+    /// Returns the velocity ∂H_d/∂p_d.
     pub(super) fn own_velocity(&self, frame: &DerivedFrame, energy: &SubHamiltonian) -> Formula {
         energy.kinetic.derivative(frame.momenta[energy.coordinate])
     }

@@ -1,9 +1,9 @@
 //! Small differences between copies that move in phase.
 //!
-//! A difference δ of what hangs from copies leaves the rest of the tree at rest to first
-//! order, whatever the copies' number: the forces of the copies on what holds them
-//! cancel. So the equations of motion of the copies' links, linearised at fixed motion
-//! of all others, are those of δ.
+//! A difference δ between copies leaves the rest of the tree unchanged to first order, for any
+//! number of copies, because the forces of the copies on their holder cancel. The equations of δ
+//! are therefore the equations of motion of the copies' links, linearised while all other links
+//! follow the in-phase motion.
 
 use super::MatrixEntry;
 use super::algebra::Formula;
@@ -53,7 +53,7 @@ impl Derivation<'_> {
         }
     }
 
-    /// Forms what angles and rates of joints change by.
+    /// Derives the deviations of the joints' relative angles and rates.
     fn small_joints(&mut self, frame: &DerivedFrame, small: &mut SmallMotion) {
         for (quantity, of_links, changes) in [
             (
@@ -74,7 +74,7 @@ impl Derivation<'_> {
         }
     }
 
-    /// M α + b of each link, zero along the motion.
+    /// Returns M α + b for each link, which is zero along the motion (α are the accelerations).
     fn balances(&self, frame: &DerivedFrame, small: &SmallMotion) -> Vec<Formula> {
         let rows = frame.bias(self).into_iter().enumerate();
         let rows = rows.map(|(i, bias)| {
@@ -102,7 +102,7 @@ impl Derivation<'_> {
             .collect();
         let friction = self.small_friction(frame, small, block.clone());
         let energy = self.small_energy(frame, small, block.clone());
-        // M δ̈ is −r, which has friction in it.
+        // M δ̈ equals −r, and r includes friction.
         let forces = frame.dissipative_forces(self);
         let mut transfer = self.rate_at_steady_rates(frame, small, &energy, block.clone());
         for (i, residual) in block.clone().zip(&residual) {
@@ -133,8 +133,8 @@ impl Derivation<'_> {
         }
     }
 
-    /// The part of a function of angles and velocities that is linear in the small motion
-    /// of these links.
+    /// Returns the part of a function of angles and velocities that is linear in the small motion
+    /// of the given links.
     pub(super) fn linearised(
         &self,
         frame: &DerivedFrame,
@@ -167,8 +167,8 @@ impl Derivation<'_> {
         terms.into_iter().sum::<Formula>().expand()
     }
 
-    /// −Σ ∂²R/∂w∂w (δw)² over the rates w of links and joints, those of torques that are not
-    /// viscous among them.
+    /// Returns −Σ ∂²R/∂w∂w (δw)² over the rates w of links and joints, including those of friction
+    /// that is not viscous.
     fn small_friction(
         &self,
         frame: &DerivedFrame,
@@ -184,7 +184,7 @@ impl Derivation<'_> {
         -powers.sum::<Formula>()
     }
 
-    /// ½ Σ M_ij δ̇_i δ̇_j + ½ Σ K_ij δ_i δ_j with K = ∂²U/∂θ∂θ where all angles are zero.
+    /// Returns ½ Σ M_ij δ̇_i δ̇_j + ½ Σ K_ij δ_i δ_j, with K = ∂²U/∂θ∂θ at zero angles.
     fn small_energy(
         &self,
         frame: &DerivedFrame,
@@ -211,7 +211,7 @@ impl Derivation<'_> {
         (&Formula::integer(2).pow(-1) * &twice).expand()
     }
 
-    /// Σ ∂E/∂θ_k ω_k + Σ ∂E/∂δ_i δ̇_i: dE/dt without the accelerations of the differences.
+    /// Returns Σ ∂E/∂θ_k ω_k + Σ ∂E/∂δ_i δ̇_i: dE/dt without the accelerations of the differences.
     fn rate_at_steady_rates(
         &self,
         frame: &DerivedFrame,

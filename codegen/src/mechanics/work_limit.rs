@@ -1,27 +1,27 @@
-//! Limit of the work of one derivation, counted in terms of formulas that are multiplied
-//! out, and in what other operations take as long as: the same on every machine, as a limit
-//! of time would not be. Terms take some 1.2 µs each in an unoptimised build.
+//! Limit of the work of one derivation. Work is counted in terms of multiplied-out formulas, and
+//! other operations as the number of terms that take equally long. Unlike a limit of time, it is
+//! the same on every machine. A term takes about 1.2 µs in an unoptimised build.
 
 use std::cell::Cell;
 
-/// Most terms that one derivation may form.
+/// Largest number of terms that one derivation may compute.
 pub const MOST_TERMS: u64 = 4_000_000;
 
 thread_local! {
-    /// Terms that the derivation on this thread has formed.
+    /// Number of terms that the derivation on this thread has computed.
     static SPENT: Cell<u64> = const { Cell::new(0) };
 }
 
-/// Reason for which a derivation ended early.
+/// Panic payload with which a derivation ends that has too many terms.
 pub(super) struct TooManyTerms;
 
-/// Counts terms that are about to be formed, and ends the derivation, which has a
-/// thread of its own, where they are too many.
+/// Counts terms before they are computed. If there are too many, ends the derivation, which runs on
+/// its own thread.
 pub(super) fn spend(terms: u64) {
     let spent = SPENT.get().saturating_add(terms);
     SPENT.set(spent);
     if spent > MOST_TERMS {
-        // No panic: nothing is printed, and `algebra::run` says why.
+        // No panic, so that nothing is printed; `algebra::run` reports the reason.
         std::panic::resume_unwind(Box::new(TooManyTerms));
     }
 }

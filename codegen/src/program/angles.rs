@@ -1,15 +1,15 @@
-//! Sines and cosines of single angles serve all others: those of a difference are
-//! formed by addition, and a sine always comes with its cosine.
+//! Angle addition: sines and cosines of differences are computed from those of single angles, and
+//! every sine is computed together with its cosine.
 //!
 //! # When it is valid
-//! cos(a − b) = cos a cos b + sin a sin b is accurate to two roundings of its terms, as
-//! large as one, so to some 10⁻¹⁶ absolutely; sin(a − b) as well, and it is exactly zero for
-//! a = b. Where differences of copies are small and matter, versines of half angles
-//! are formed instead (`rotations.rs`).
+//! cos(a − b) = cos a cos b + sin a sin b has an absolute error of two roundings of terms of size
+//! up to one, about 10⁻¹⁶. The same holds for sin(a − b), which is exactly zero for a = b. Where
+//! small differences between copies matter, the program computes versines of half angles instead
+//! (`rotations.rs`).
 //!
 //! # Cost
-//! One sine and cosine a link instead of one for each pair of related links; four products and
-//! two sums a pair.
+//! One sine and cosine per link instead of one per pair of related links; four products and two
+//! sums per pair.
 
 use super::lower::{Environment, Lowering};
 use super::{Pass, ValueId};
@@ -113,7 +113,8 @@ mod tests {
     use crate::stages_without;
     use quote::quote;
 
-    /// Two links have two sines and cosines, and not three; the accelerations are the same.
+    /// Checks that two links need two pairs of sine and cosine instead of three, and that the
+    /// accelerations do not change.
     #[test]
     fn differences_take_no_sines_of_their_own() {
         let [added, direct] = [None, Some(Pass::AngleAddition)].map(|off| {

@@ -1,5 +1,5 @@
-//! The choice of the solve for the accelerations: both are derived, and the
-//! cheaper one stays.
+//! Choice of the method of solving for the accelerations: both methods are derived, and the cheaper
+//! one is kept.
 
 use super::count::{Operations, operations};
 use super::lower::{Environment, Lowering};
@@ -9,33 +9,34 @@ use crate::functions::Argument;
 use crate::scene::{LinkId, Scene, Solve};
 use std::collections::BTreeMap;
 
-/// Accelerations of links that are given, by link.
-pub(super) type Held = BTreeMap<usize, ValueId>;
+/// Prescribed accelerations, as values by the index of the link.
+pub(super) type PrescribedAccelerations = BTreeMap<usize, ValueId>;
 
-/// Accelerations of all links, and the torques that the given ones take beyond those from
-/// outside, in the order of the links.
-pub(super) struct Moved {
+/// Accelerations of all links, and the torques that the prescribed ones need in addition to the
+/// external torques, in the order of the links.
+pub(super) struct PrescribedSolution {
     pub(super) accelerations: Vec<ValueId>,
     pub(super) reactions: Vec<ValueId>,
 }
 
-/// Cost of a division in products and sums. On current processors one takes as
-/// long as 4 to 8 of these at full width; both solves have one for each link
-/// with children, so that little depends on it.
+/// Cost of a division relative to a product or sum. On current processors a division takes as long
+/// as 4 to 8 of these in vector code. Both methods have one division for each link with children,
+/// so that the value hardly matters.
 const DIVISION: usize = 6;
 
-/// Cost by which solves are compared: products, sums and six times the
-/// divisions. Sines and cosines are the same in all.
+/// Returns the cost by which the methods are compared: products, sums and six times the divisions.
+/// Sines and cosines are the same in both.
 pub fn cost(operations: &Operations) -> usize {
     operations.multiplications + operations.additions + DIVISION * operations.divisions
 }
 
-/// Most products of a factorisation that is formed only to be compared. The recursion
-/// takes some 40 operations a link, and a chain of 48 links has as many here.
+/// Largest number of products of a factorisation that is derived only for comparison. The recursion
+/// takes about 40 operations per link; the factorisation of a chain of 48 links has this many
+/// products.
 const MOST_PRODUCTS: usize = 20_000;
 
-/// Returns true if the factorisation takes far more operations than the recursion: one
-/// product for each link and pair of links above it.
+/// Returns true if the factorisation takes far more operations than the recursion. It has one
+/// product for each link and each pair of its ancestors.
 fn is_deep(scene: &Scene) -> bool {
     let mut depths: Vec<usize> = Vec::with_capacity(scene.links.len());
     for link in &scene.links {
@@ -46,8 +47,8 @@ fn is_deep(scene: &Scene) -> bool {
 }
 
 impl Lowering<'_> {
-    /// θ̈ in absolute angles, solved for as the scene asks, or else at the lower
-    /// [`cost`]. What is not chosen leaves no trace in the program.
+    /// Computes the accelerations θ̈ in absolute angles, by the requested method or else by the one
+    /// with the lower [`cost`]. The program contains nothing of the other method.
     pub(super) fn accelerations(
         &mut self,
         scene: &Scene,
@@ -94,7 +95,8 @@ impl Lowering<'_> {
         }
     }
 
-    /// θ̈ under torques from outside, by the solve that was chosen without them.
+    /// Computes the accelerations θ̈ under external torques, by the method that was chosen without
+    /// them.
     pub(super) fn accelerations_under(
         &mut self,
         scene: &Scene,
@@ -108,27 +110,24 @@ impl Lowering<'_> {
         }
     }
 
-    /// θ̈ of all links and the reactions of the prescribed ones of a set, by the same
-    /// solve.
+    /// Computes the accelerations θ̈ of all links and the reaction torques of the prescribed links
+    /// of a set, by the same method.
     pub(super) fn accelerations_prescribed(
         &mut self,
         scene: &Scene,
         environment: &mut Environment<'_>,
         solve: Solve,
         set: usize,
-    ) -> Moved {
+    ) -> PrescribedSolution {
         environment.torques = Some(Argument::Torques);
-        let mut held = Held::new();
+        let mut prescribed = PrescribedAccelerations::new();
         for (index, &LinkId(link)) in scene.prescribed[set].links.iter().enumerate() {
             let alpha = self.builder.input(Argument::Prescribed(set), index);
-            held.insert(link, alpha);
+            prescribed.insert(link, alpha);
         }
-        let mut moved = match solve {
-            Solve::Factorization => self.factorization_around(environment, &held),
-            Solve::Recursion => self.recursion_around(scene, environment, &held),
-        };
+        let mut moved = self.around(scene, environment, solve, &prescribed);
         // From the order of the links to that of the set.
-        let order: Vec<usize> = held.keys().copied().collect();
+        let order: Vec<usize> = prescribed.keys().copied().collect();
         let links = scene.prescribed[set].links.iter();
         let of_link = |link: &LinkId| order.iter().position(|&known| known == link.0);
         let reactions = links
@@ -138,31 +137,52 @@ impl Lowering<'_> {
         moved
     }
 
-    /// q̈ with M q̈ = Q − bias, Q from outside if at all, by elimination.
+    /// Computes θ̈ of all links with the chosen method, and the torques that the prescribed
+    /// accelerations need.
+    pub(super) fn around(
+        &mut self,
+        scene: &Scene,
+        environment: &mut Environment<'_>,
+        solve: Solve,
+        prescribed: &PrescribedAccelerations,
+    ) -> PrescribedSolution {
+        match solve {
+            Solve::Factorization => self.factorization_around(environment, prescribed),
+            Solve::Recursion => self.recursion_around(scene, environment, prescribed),
+        }
+    }
+
+    /// Solves M q̈ = Q − bias for q̈ by elimination, with external torques Q if there are any.
     pub(super) fn factorization(&mut self, environment: &mut Environment<'_>) -> Vec<ValueId> {
-        self.factorization_around(environment, &Held::new())
+        self.factorization_around(environment, &PrescribedAccelerations::new())
             .accelerations
     }
 
-    /// Elimination around links whose acceleration is given: their rows are the torques
-    /// that it takes.
-    fn factorization_around(&mut self, environment: &mut Environment<'_>, held: &Held) -> Moved {
+    /// Solves by elimination with some accelerations prescribed: the rows of these links give the
+    /// torques that they need.
+    fn factorization_around(
+        &mut self,
+        environment: &mut Environment<'_>,
+        prescribed: &PrescribedAccelerations,
+    ) -> PrescribedSolution {
         let frame = environment.frame;
         let names = self.coordinate_names(frame);
         let mass = self.mass_matrix(environment);
         let mut right = self.right_sides(environment, &names);
         let builder = &mut self.builder;
-        let free: Vec<usize> = (0..right.len()).filter(|i| !held.contains_key(i)).collect();
-        let (reduced, across) = without_held(&mass, &free);
+        let free: Vec<usize> = (0..right.len())
+            .filter(|i| !prescribed.contains_key(i))
+            .collect();
+        let (reduced, across) = without_prescribed(&mass, &free);
         let mut take = |right: &mut [ValueId], link: usize, value: ValueId, alpha: ValueId| {
             let part = builder.mul(value, alpha);
             right[link] = builder.sub(right[link], part);
         };
         for &(row, column, value) in &across {
-            if let Some(&alpha) = held.get(&column) {
+            if let Some(&alpha) = prescribed.get(&column) {
                 take(&mut right, row, value, alpha);
             }
-            if let (Some(&alpha), true) = (held.get(&row), row != column) {
+            if let (Some(&alpha), true) = (prescribed.get(&row), row != column) {
                 take(&mut right, column, value, alpha);
             }
         }
@@ -170,36 +190,36 @@ impl Lowering<'_> {
         let free_names: Vec<String> = free.iter().map(|&link| names[link].clone()).collect();
         let solution = self.builder.solve(reduced, own, &free_names);
         let mut accelerations = right.clone();
-        for (&link, &value) in free.iter().zip(&solution).chain(held) {
+        for (&link, &value) in free.iter().zip(&solution).chain(prescribed) {
             accelerations[link] = value;
         }
         for (&value, name) in solution.iter().zip(&free_names) {
             self.builder.name(value, &format!("alpha_{name}"));
         }
-        // What the free links' accelerations take besides.
+        // Contribution of the free links' accelerations to these torques.
         for &(row, column, value) in &across {
             for (link, other) in [(row, column), (column, row)] {
-                if held.contains_key(&link) && !held.contains_key(&other) {
+                if prescribed.contains_key(&link) && !prescribed.contains_key(&other) {
                     let part = self.builder.mul(value, accelerations[other]);
                     right[link] = self.builder.sub(right[link], part);
                 }
             }
         }
-        let mut reactions = Vec::with_capacity(held.len());
-        for link in held.keys() {
+        let mut reactions = Vec::with_capacity(prescribed.len());
+        for link in prescribed.keys() {
             let reaction = self.builder.neg(right[*link]);
             reactions.push(
                 self.builder
                     .name(reaction, &format!("reaction_{}", names[*link])),
             );
         }
-        Moved {
+        PrescribedSolution {
             accelerations,
             reactions,
         }
     }
 
-    /// Q − bias of all coordinates.
+    /// Returns the right sides Q − bias of the equations of motion, one for each coordinate.
     fn right_sides(&mut self, environment: &mut Environment<'_>, names: &[String]) -> Vec<ValueId> {
         let mut right = Vec::new();
         for (bias, name) in environment.frame.bias.iter().zip(names) {
@@ -220,8 +240,8 @@ impl Lowering<'_> {
     }
 }
 
-/// The matrix of the links that are not held, and the entries of all others.
-fn without_held(mass: &Matrix, free: &[usize]) -> (Matrix, Vec<(usize, usize, ValueId)>) {
+/// Splits the mass matrix into the block of the free links, and all other entries.
+fn without_prescribed(mass: &Matrix, free: &[usize]) -> (Matrix, Vec<(usize, usize, ValueId)>) {
     let (mut reduced, mut across) = (Matrix::new(), Vec::new());
     for (&(row, column), &value) in mass {
         let place = |link: usize| free.binary_search(&link).ok();

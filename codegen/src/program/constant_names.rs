@@ -1,4 +1,4 @@
-//! Names for constants that nothing but their formation explains, and for numbers.
+//! Names for constants that are known only by their formula, and for numbers.
 
 use super::constants::{ConstantDefinition, ConstantId, ConstantOp, Setup};
 use super::{Op, Program};
@@ -6,20 +6,22 @@ use crate::exact::Rational;
 use crate::mechanics::Mechanics;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Longer products of names say less than a number.
+/// Longest name, in characters, that consists of the factors of a product. A longer one would be
+/// less clear than a number.
 const LONGEST_PRODUCT: usize = 72;
 
-/// Longer sums of names say less than a number.
+/// Longest name, in characters, that consists of the members of a sum. A longer one would be less
+/// clear than a number.
 const LONGEST_SUM: usize = 40;
 
 impl Program {
-    /// Names all constants, those that code reads first.
+    /// Names all constants, first those that the code reads.
     ///
-    /// Constants of the mechanics have their letters' names, and those that are formed under a
-    /// name have that. A product of these is called by its factors:
-    /// `coupling_child_parent_over_inertia_child`. A sum, and a product with a sum in it, has the
-    /// name of the value that it is, as `reduced_inertia_trunk`; without one it is called by its
-    /// members where that is short, and `constant_1` where it is not.
+    /// Constants of the mechanics have the names of their letters, and constants created with a
+    /// name keep it. A product of such constants is named by its factors:
+    /// `coupling_child_parent_over_inertia_child`. A sum, and a product that contains a sum, has
+    /// the hinted name of its value, such as `reduced_inertia_trunk`. Without a hint it is named by
+    /// its members if that name is short, and `constant_1` if not.
     pub(super) fn name_constants(&mut self, mechanics: &Mechanics) {
         let mut read = Vec::new();
         for entry in &self.entries {
@@ -42,22 +44,22 @@ impl Program {
     }
 }
 
-/// Constants that are being named.
+/// State of the naming of constants.
 struct Naming {
     setup: Setup,
-    /// The constants that have their final names.
+    /// Constants that have their final names.
     named: BTreeSet<ConstantId>,
-    /// The names in use, and the number after which to look for a free one.
+    /// Names in use, each with the number after which to search for a free one.
     used: BTreeMap<String, u32>,
-    /// What constants should be called, as far as that was asked for.
+    /// Desired names of constants, as far as they have been determined.
     known: BTreeMap<ConstantId, Option<String>>,
-    /// Constants that have numbers for names.
+    /// Number of constants named by a number.
     numbered: u32,
 }
 
 impl Naming {
-    /// With the names of the mechanics, which no symbol shares with another, and of constants
-    /// that are formed under a name.
+    /// Creates the state with the names of the mechanics' constants, which are distinct, and with
+    /// those of constants created with a name.
     fn new(setup: Setup, mechanics: &Mechanics) -> Self {
         let codes = mechanics.constants.iter();
         let codes = codes.map(|constant| mechanics.symbols.get(constant.symbol).code.clone());
@@ -72,8 +74,8 @@ impl Naming {
             let id = ConstantId(index as u32);
             let ConstantDefinition { op, name, .. } = naming.setup.get(id);
             match op {
-                // A parameter keeps its name in texts, so it claims none; should it become
-                // a field, `emit` tells the two apart.
+                // A parameter keeps its name in texts without reserving it. If it also becomes a
+                // field, `emit` distinguishes the two.
                 ConstantOp::Named(..) | ConstantOp::Parameter(_) => {
                     let name = name.clone();
                     naming.known.insert(id, Some(name));
@@ -90,7 +92,7 @@ impl Naming {
     }
 
     fn name(&mut self, id: ConstantId, wanted: String) {
-        // A name with a number may be another constant's own: that of a link's copy.
+        // A name with a number may belong to another constant: that of a link's copy.
         let mut name = wanted.clone();
         let mut count = self.used.get(&wanted).copied().unwrap_or(0);
         while self.used.contains_key(&name) {
@@ -115,7 +117,7 @@ impl Naming {
         self.name(id, name);
     }
 
-    /// What a constant should be called; `None` where nothing says what it is.
+    /// Returns the desired name of a constant; `None` if it has no description.
     fn wanted(&mut self, id: ConstantId) -> Option<String> {
         if let Some(wanted) = self.known.get(&id) {
             return wanted.clone();
@@ -135,7 +137,7 @@ impl Naming {
         matches!(op, ConstantOp::Add(..) | ConstantOp::Sub(..))
     }
 
-    /// A name that says how a constant is formed, if that is short enough.
+    /// Returns a name that describes the formula of a constant, if it is short enough.
     fn described(&mut self, op: &ConstantOp) -> Option<String> {
         let (name, longest) = match op {
             ConstantOp::Number(value) => (number(value), LONGEST_PRODUCT),
@@ -161,7 +163,8 @@ impl Naming {
     }
 }
 
-/// `twice_gravity_child`, `coupling_child_parent_over_inertia_child`.
+/// Returns the name of a product: `twice_gravity_child`,
+/// `coupling_child_parent_over_inertia_child`.
 fn product(number: &Rational, powers: &[(String, i32)]) -> String {
     let side = |above: bool| -> Vec<String> {
         powers
@@ -181,7 +184,7 @@ fn product(number: &Rational, powers: &[(String, i32)]) -> String {
         None => ("", numerator),
     };
     let denominator = number.denominator_text();
-    // Digits would say less than that there is a factor.
+    // Many digits say no more than that there is a factor.
     let long = numerator.len().max(denominator.len()) > MOST_FACTOR_DIGITS;
     if numerator == "1" && denominator == "2" && below.is_empty() {
         above.insert(0, "half".into());
@@ -204,8 +207,8 @@ fn product(number: &Rational, powers: &[(String, i32)]) -> String {
     started(format!("{sign}{scaled}{name}"))
 }
 
-/// The name of a number: `half`, `two_over_three`, `number_0_15`, and `coefficient` where
-/// digits would say more than a name.
+/// Returns the name of a number: `half`, `two_over_three`, `number_0_15`. Numbers of many digits
+/// are named `coefficient`.
 pub(crate) fn number(number: &Rational) -> String {
     let sign = if number.is_negative() { "minus_" } else { "" };
     let numerator = number.numerator_text();
@@ -227,13 +230,13 @@ pub(crate) fn number(number: &Rational) -> String {
     format!("{sign}{}", started(name))
 }
 
-/// A number of more digits than this has no name.
+/// Largest number of digits of a number that is named by its digits.
 const MOST_DIGITS: usize = 8;
 
-/// A factor of more digits than this is not named.
+/// Largest number of digits of a factor that is named by its digits.
 const MOST_FACTOR_DIGITS: usize = 2;
 
-/// A name begins with a letter.
+/// Adds a prefix to a name that does not begin with a letter.
 fn started(name: String) -> String {
     match name.starts_with(|first: char| first.is_ascii_digit()) {
         true => format!("number_{name}"),

@@ -1,6 +1,6 @@
-//! The model's constants as a small program of their own: leaves are the
-//! description's numbers and parameters; everything else is formed from them
-//! once, exactly where no parameter is involved.
+//! Constants of the model, as a separate small program. Its inputs are the description's numbers
+//! and parameters; everything else is computed from them once per model, exactly if no parameter is
+//! involved.
 
 use crate::exact::Rational;
 use crate::scene::{Scene, Sign};
@@ -10,21 +10,19 @@ use std::collections::{BTreeMap, BTreeSet, HashMap};
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct ConstantId(pub u32);
 
-/// Operation that forms a constant.
+/// Operation that computes a constant.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum ConstantOp {
     /// A number.
     Number(Rational),
     /// A parameter of the scene, by its index there.
     Parameter(usize),
-    /// A constant that the mechanics names, by its index there, formed as the
-    /// other constant says.
+    /// A constant of the mechanics, by its index there, with the value of another constant.
     Named(usize, ConstantId),
-    /// A constant under a name of the program's own, formed as the other
-    /// constant says.
+    /// A constant that the program names, with the value of another constant.
     Called(ConstantId),
-    /// A number times integer powers of other constants, which are ordered and
-    /// neither numbers nor products: one spelling for each product.
+    /// A number times integer powers of other constants. These are sorted and are neither numbers
+    /// nor products, so that each product has one form.
     Product(Rational, Vec<(ConstantId, i32)>),
     /// Sum.
     Add(ConstantId, ConstantId),
@@ -33,12 +31,12 @@ pub enum ConstantOp {
 }
 
 impl ConstantOp {
-    /// The constants it is formed of.
+    /// Returns the constants that the operation uses.
     pub fn operands(&self) -> impl Iterator<Item = ConstantId> {
         self.readings().into_iter().map(|(id, _)| id)
     }
 
-    /// The constants that it reads, and how often each.
+    /// Returns the constants that the operation reads, and how often it reads each.
     pub fn readings(&self) -> Vec<(ConstantId, usize)> {
         match self {
             Self::Number(_) | Self::Parameter(_) => Vec::new(),
@@ -52,22 +50,22 @@ impl ConstantOp {
     }
 }
 
-/// A constant.
+/// A constant of the model, with the operation that computes it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ConstantDefinition {
-    /// The operation that forms it.
+    /// Operation that computes the constant.
     pub op: ConstantOp,
-    /// Value of the constant, where no parameter is involved.
+    /// Exact value of the constant, if no parameter is involved.
     pub exact: Option<Rational>,
-    /// Name of the constant in code, given to all of them at the end; until then, that of
-    /// whoever formed it, if any.
+    /// Name of the constant in code. All constants are named at the end; until then it is the name
+    /// given at creation, if any.
     pub name: String,
-    /// What code calls a constant that nobody has named.
+    /// Name that is used if the constant gets no other.
     pub(super) hint: Option<String>,
 }
 
 impl ConstantDefinition {
-    /// Returns true if nothing but its formation says what the constant is.
+    /// Returns true if the constant has no name, so that only its formula describes it.
     pub(super) fn is_anonymous(&self) -> bool {
         matches!(
             self.op,
@@ -76,20 +74,20 @@ impl ConstantDefinition {
     }
 }
 
-/// The constants of a model; each uses earlier ones only.
+/// Constants of a model; each uses earlier ones only.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Setup {
-    /// The constants.
+    /// All constants, each after the constants from which it is computed.
     pub definitions: Vec<ConstantDefinition>,
-    /// The constants of the mechanics, by their index there, and those that stand for them:
-    /// equal ones are one.
+    /// For each constant of the mechanics, by its index there, the constant that represents it.
+    /// Equal constants have the same representative.
     pub stand_ins: BTreeMap<usize, ConstantId>,
     known: HashMap<ConstantOp, ConstantId>,
 }
 
 impl Setup {
-    /// The constants that `outputs` are formed of, these included, in the order of their
-    /// definitions; what is behind a constant counts where `enters` it.
+    /// Returns the constants from which `outputs` are computed, including these, in the order of
+    /// definition. The operands of a constant are included only if `enters` returns true for it.
     pub fn behind(
         &self,
         outputs: impl IntoIterator<Item = ConstantId>,
@@ -106,33 +104,33 @@ impl Setup {
         behind
     }
 
-    /// The definition of a constant.
+    /// Returns the definition of a constant.
     pub fn get(&self, id: ConstantId) -> &ConstantDefinition {
         &self.definitions[id.0 as usize]
     }
 
-    /// All constants, in the order in which they were formed.
+    /// Iterates over all constants, in the order in which they are computed.
     pub fn iter(&self) -> impl Iterator<Item = (ConstantId, &ConstantDefinition)> {
         let definitions = self.definitions.iter().enumerate();
         definitions.map(|(index, definition)| (ConstantId(index as u32), definition))
     }
 
-    /// A number.
+    /// Returns a number as a constant.
     pub(super) fn number(&mut self, value: Rational) -> ConstantId {
         self.intern(ConstantOp::Number(value), None)
     }
 
-    /// A parameter of the scene.
+    /// Returns a parameter of the scene as a constant.
     pub(super) fn parameter(&mut self, index: usize, name: &str) -> ConstantId {
         self.intern(ConstantOp::Parameter(index), Some(name))
     }
 
-    /// A constant of the mechanics.
+    /// Returns a constant of the mechanics with the value of `formed`.
     pub(super) fn named(&mut self, index: usize, formed: ConstantId, name: &str) -> ConstantId {
         self.intern(ConstantOp::Named(index, formed), Some(name))
     }
 
-    /// Says what an anonymous constant is called where it is formed. The first hint stays.
+    /// Suggests a name for a constant that has only a formula. The first hint is kept.
     pub(super) fn hint(&mut self, id: ConstantId, name: &str) {
         let definition = &mut self.definitions[id.0 as usize];
         if definition.is_anonymous() && definition.hint.is_none() {
@@ -140,12 +138,12 @@ impl Setup {
         }
     }
 
-    /// A constant that is read under a name of its own.
+    /// Returns a constant with its own name and the value of `formed`.
     pub(super) fn called(&mut self, formed: ConstantId, name: &str) -> ConstantId {
         self.intern(ConstantOp::Called(formed), Some(name))
     }
 
-    /// a + b.
+    /// Returns a + b.
     pub(super) fn add(&mut self, a: ConstantId, b: ConstantId) -> ConstantId {
         match (self.as_number(a), self.as_number(b)) {
             (Some(x), Some(y)) => self.number(x + y),
@@ -155,7 +153,7 @@ impl Setup {
         }
     }
 
-    /// a − b.
+    /// Returns a − b.
     pub(super) fn sub(&mut self, a: ConstantId, b: ConstantId) -> ConstantId {
         match (self.as_number(a), self.as_number(b)) {
             (Some(x), Some(y)) => self.number(x - y),
@@ -164,23 +162,23 @@ impl Setup {
         }
     }
 
-    /// −a.
+    /// Returns −a.
     pub(super) fn neg(&mut self, a: ConstantId) -> ConstantId {
         let (number, powers) = self.as_product(a);
         self.product(-number, powers)
     }
 
-    /// a · b.
+    /// Returns a · b.
     pub(super) fn mul(&mut self, a: ConstantId, b: ConstantId) -> ConstantId {
         self.combine(a, b, 1)
     }
 
-    /// a / b, b not zero.
+    /// Returns a / b; b must not be zero.
     pub(super) fn div(&mut self, a: ConstantId, b: ConstantId) -> ConstantId {
         self.combine(a, b, -1)
     }
 
-    /// An integer power of a, which is not zero where that is negative.
+    /// Returns an integer power of a, which must not be zero if the exponent is negative.
     pub(super) fn power(&mut self, a: ConstantId, exponent: i32) -> ConstantId {
         let one = self.number(Rational::from(1));
         (0..exponent.unsigned_abs()).fold(one, |power, _| match exponent > 0 {
@@ -218,8 +216,7 @@ impl Setup {
         }
     }
 
-    /// Returns true if the signs that the scene demands of its parameters make
-    /// a constant positive.
+    /// Returns true if the constant is positive for all parameters whose signs the scene accepts.
     pub(super) fn is_positive(&self, id: ConstantId, scene: &Scene) -> bool {
         let positive = |id: &ConstantId| self.is_positive(*id, scene);
         match &self.get(id).op {
@@ -236,7 +233,7 @@ impl Setup {
         }
     }
 
-    /// The n of a = 2ⁿ b, up to 3 of either sign; `None` where a is no such multiple.
+    /// Returns the n of a = 2ⁿ b with |n| ≤ 3; `None` if there is none.
     pub(super) fn binary_exponent(&self, a: ConstantId, b: ConstantId) -> Option<i32> {
         let ((a, powers_a), (b, powers_b)) = (self.as_product(a), self.as_product(b));
         let ratio = a.checked_div(&b)?;

@@ -1,13 +1,13 @@
-//! The cost of an entry point.
+//! Operation counts of entry points.
 
 use super::{Definition, Op, Program, ValueId};
 use std::collections::BTreeSet;
 use std::fmt;
 
-/// Operations of one evaluation.
+/// Number of operations of one evaluation.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Operations {
-    /// Sine and cosine of one angle, together.
+    /// Pairs of the sine and cosine of one angle.
     pub sin_cos: usize,
     /// Additions and subtractions.
     pub additions: usize,
@@ -22,7 +22,7 @@ pub struct Operations {
 }
 
 impl Operations {
-    /// All together; a sine with its cosine is one.
+    /// Returns the number of all operations; a sine and its cosine count as one.
     pub fn total(&self) -> usize {
         let Self {
             sin_cos,
@@ -37,13 +37,13 @@ impl Operations {
 }
 
 impl Program {
-    /// The operations that `outputs` take.
+    /// Counts the operations that `outputs` need.
     pub fn operations(&self, outputs: &[ValueId]) -> Operations {
         operations(&self.definitions, outputs)
     }
 }
 
-/// See [`Program::operations`].
+/// Counts operations as [`Program::operations`] does.
 pub(super) fn operations(definitions: &[Definition], outputs: &[ValueId]) -> Operations {
     let mut count = Operations::default();
     let mut angles = BTreeSet::new();

@@ -1,20 +1,19 @@
-//! Dead code: an entry point holds nothing that it does not need.
+//! Removal of dead code: an entry point contains only the operations that it needs.
 //!
-//! Exact: the operations that are left out have no effect. Linear in the
-//! length of what is needed, but for a bit for each value of the program.
+//! Exact: the removed operations have no effect. Linear in the number of needed values, plus one
+//! bit per value of the program.
 
 use super::{Definition, Op, Program, ValueId};
 
 impl Program {
-    /// The values that `outputs` depend on, themselves included, in order:
-    /// the program pruned to them. Linear in their number, but for a bit for each value of
-    /// the program.
+    /// Returns the values that `outputs` depend on, including these, in the order of the program.
+    /// Linear in their number, plus one bit per value of the program.
     pub fn needed(&self, outputs: &[ValueId]) -> Vec<ValueId> {
         needed(&self.definitions, outputs)
     }
 
-    /// The program without the operations that no entry point needs. Sines and cosines stay,
-    /// since each comes with its partner.
+    /// Removes the operations that no entry point needs. A sine or cosine is kept if its partner is
+    /// needed.
     pub(super) fn without_dead_code(mut self) -> Self {
         let outputs = self.entries.iter().flat_map(|entry| &entry.outputs);
         let mut kept: Vec<ValueId> = outputs.copied().collect();
@@ -43,9 +42,9 @@ impl Program {
     }
 }
 
-/// See [`Program::needed`].
+/// Finds the values as [`Program::needed`] does.
 pub(super) fn needed(definitions: &[Definition], outputs: &[ValueId]) -> Vec<ValueId> {
-    // A bit for each value, so that a short function of a long program costs little.
+    // One bit per value, so that a short function of a long program costs little.
     let mut wanted = vec![0_u64; definitions.len().div_ceil(64)];
     let mut open: Vec<ValueId> = Vec::new();
     let mut want = |id: ValueId, open: &mut Vec<ValueId>| {

@@ -1,4 +1,4 @@
-//! Functions of time, and the powers of what moves and brakes the tree.
+//! Functions of time, and the powers of drive, friction and external torques.
 
 use super::ValueId;
 use super::entry_list::EntryList;
@@ -9,7 +9,7 @@ use crate::mechanics::{DriveTerms, Mechanics, Temporal};
 use crate::scene::Scene;
 
 impl Lowering<'_> {
-    /// The value of a symbol that depends on time alone.
+    /// Returns the value of a symbol that depends only on time.
     pub(super) fn temporal(
         &mut self,
         environment: &mut Environment<'_>,
@@ -41,8 +41,8 @@ impl Lowering<'_> {
 }
 
 impl EntryList<'_, '_> {
-    /// The drive as a function of time alone: acceleration of the root's pivot,
-    /// torque on the root. What is not given is zero.
+    /// Adds the drive as a function of time: acceleration of the root's pivot and torque on the
+    /// root. Absent ones are zero.
     pub(super) fn drive(&mut self, mechanics: &Mechanics, drive: &DriveTerms) {
         let mut environment = Environment::new(&mechanics.absolute, Argument::Theta, None, None);
         let along = |axis: &str| {
@@ -56,7 +56,8 @@ impl EntryList<'_, '_> {
         self.push(Purpose::Drive, outputs.to_vec());
     }
 
-    /// The powers of drive, friction and torques from outside, which balance the energy.
+    /// Adds the powers of drive, friction and external torques, which balance the rate of the
+    /// energy.
     pub(super) fn powers(
         &mut self,
         scene: &Scene,

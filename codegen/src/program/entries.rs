@@ -1,4 +1,4 @@
-//! The entry points that a scene's requests lead to.
+//! Entry points for the requested outputs.
 
 use super::entry_list::EntryList;
 use super::lower::{Environment, Lowering};
@@ -7,10 +7,12 @@ use crate::functions::{Argument, Purpose};
 use crate::mechanics::{Frame, MatrixEntry, Mechanics};
 use crate::scene::{LinkId, Scene, Solve};
 
-/// Entry points, the solve that they take, and the constants by strip.
+/// Entry points, the chosen method of solving for the accelerations, and the constants of a tree in
+/// loops.
 type Lowered = (Vec<Entry>, SolveChoice, Option<LoopTree>);
 
-/// Entry points of a tree in loops, which take the recursion through it link by link.
+/// Creates the entry points of a tree in loops, which contain the articulated recursion for one
+/// link.
 pub(super) fn link_entries(scene: &Scene, lowering: &mut Lowering<'_>) -> Lowered {
     let mechanics = lowering.mechanics;
     let mut list = EntryList::new(scene, lowering);
@@ -30,7 +32,7 @@ pub(super) fn entries(scene: &Scene, lowering: &mut Lowering<'_>) -> Lowered {
     if let Some(symmetric) = &mechanics.symmetric {
         list.transforms(scene, mechanics);
         match &mechanics.sectors {
-            // Only the names of the frame are derived then.
+            // In this case only the names of the frame are derived.
             Some(sectors) if symmetric.mass.is_empty() => {
                 list.symmetric_of_nested(scene, sectors);
             }
@@ -50,6 +52,9 @@ pub(super) fn entries(scene: &Scene, lowering: &mut Lowering<'_>) -> Lowered {
             list.small(scene, mechanics, transverse, small);
         }
     }
+    if let Some(normal_form) = &mechanics.normal_form {
+        list.normal_form(mechanics, normal_form);
+    }
     if let Some(positions) = &mechanics.positions {
         list.positions(scene, mechanics, positions);
     }
@@ -61,7 +66,7 @@ pub(super) fn entries(scene: &Scene, lowering: &mut Lowering<'_>) -> Lowered {
 
 impl EntryList<'_, '_> {
     fn absolute(&mut self, scene: &Scene, mechanics: &Mechanics) -> SolveChoice {
-        use Argument::{AbsoluteMomenta, Omega, Theta};
+        use Argument::{AbsoluteMomenta, Alpha, Omega, Theta};
         let frame = &mechanics.absolute;
         let mut motion = Environment::new(frame, Theta, Some(Omega), None);
         let (alpha, choice) = self.lowering.accelerations(scene, &mut motion);
@@ -72,10 +77,10 @@ impl EntryList<'_, '_> {
             let alpha = lowering.accelerations_under(scene, &mut pushed, choice.solve);
             self.push(Purpose::AccelerationsUnder, alpha);
             for number in 0..scene.prescribed.len() {
-                let mut held = motion.clone();
+                let mut prescribed = motion.clone();
                 let moved = (self.lowering).accelerations_prescribed(
                     scene,
-                    &mut held,
+                    &mut prescribed,
                     choice.solve,
                     number,
                 );
@@ -83,6 +88,13 @@ impl EntryList<'_, '_> {
                 outputs.extend(moved.reactions);
                 self.push(Purpose::Prescribed(number), outputs);
             }
+        }
+        if scene.requests.inverse_dynamics {
+            let links = 0..scene.links.len();
+            let given = links.map(|link| (link, self.lowering.builder.input(Alpha, link)));
+            let (given, mut moved) = (given.collect(), motion.clone());
+            let moved = (self.lowering).around(scene, &mut moved, choice.solve, &given);
+            self.push(Purpose::InverseDynamics, moved.reactions);
         }
         if let Some(energies) = &frame.energies {
             let kinetic = self.lowering.expr(&mut motion, &energies.kinetic);
@@ -138,7 +150,7 @@ impl EntryList<'_, '_> {
         dense
     }
 
-    /// θ = J q, and q = (JᵀJ)⁻¹ Jᵀ θ, where JᵀJ is diagonal.
+    /// Adds the transforms θ = J q and q = (JᵀJ)⁻¹ Jᵀ θ, where JᵀJ is diagonal.
     fn transforms(&mut self, scene: &Scene, mechanics: &Mechanics) {
         let builder = &mut self.lowering.builder;
         let mut forward = Vec::new();

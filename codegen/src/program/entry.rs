@@ -5,7 +5,7 @@ use crate::functions::{Argument, Naming, Purpose, ResultShape, Signature};
 use crate::mechanics::Mechanics;
 use crate::scene::{Coordinate, CoordinateKind, Scene};
 
-/// An entry point: the program pruned to its outputs becomes a function.
+/// An entry point: a function that consists of the operations which its outputs need.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Entry {
     /// Function name.
@@ -16,12 +16,12 @@ pub struct Entry {
     pub arguments: Vec<Argument>,
     /// Output values.
     pub outputs: Vec<ValueId>,
-    /// Shape of the outputs.
+    /// Type in which the outputs are returned.
     pub shape: ResultShape,
 }
 
 impl Entry {
-    /// The function that is called so, with these outputs.
+    /// Creates the entry point with this signature and these outputs.
     pub(super) fn new(signature: Signature, purpose: Purpose, outputs: Vec<ValueId>) -> Self {
         let Signature {
             name,
@@ -39,7 +39,7 @@ impl Entry {
 }
 
 impl Naming {
-    pub(super) fn of(scene: &Scene, mechanics: &Mechanics) -> Self {
+    pub(crate) fn of(scene: &Scene, mechanics: &Mechanics) -> Self {
         let coordinates = &mechanics.coordinates;
         let is_difference = |c: &&Coordinate| matches!(c.kind, CoordinateKind::Difference { .. });
         let several = coordinates.iter().filter(is_difference).count() > 1;

@@ -1,4 +1,4 @@
-//! Entry points as they are added, one after the other.
+//! List of entry points under construction.
 
 use super::lower::{Environment, Lowering};
 use super::{Entry, ValueId};

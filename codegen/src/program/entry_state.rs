@@ -1,4 +1,4 @@
-//! States in means and differences, as entry points receive them.
+//! Arguments of entry points as means and differences of copies.
 
 use super::ValueId;
 use super::lower::{Environment, Lowering};
@@ -11,7 +11,7 @@ use crate::mechanics::expression::Expr;
 use crate::mechanics::{Mechanics, OrbitChord, OrbitCoupling, OrbitMechanics, PairElement};
 use crate::scene::{FrictionLaw, LinkId, Scene};
 
-/// Arithmetic on means and differences, on series up to an order or on values alone.
+/// Creates the arithmetic on means and differences, on series up to an order or on exact values.
 pub(super) fn symmetric_tree<'b>(
     lowering: &'b mut Lowering<'_>,
     truncation: Option<usize>,
@@ -25,7 +25,7 @@ pub(super) fn symmetric_tree<'b>(
     }
 }
 
-/// A constant as a series; zero is an empty one.
+/// Returns a constant as a series; zero is an empty series.
 fn constant(lowering: &Lowering<'_>, value: ValueId) -> TruncatedSeries {
     match lowering.builder.is(value, 0) {
         true => TruncatedSeries::default(),
@@ -33,7 +33,7 @@ fn constant(lowering: &Lowering<'_>, value: ValueId) -> TruncatedSeries {
     }
 }
 
-/// The constants of a law of friction as values of the program.
+/// Returns the constants of a friction law as values of the program.
 pub(super) fn law_values(lowering: &mut Lowering<'_>, law: &FrictionLaw<Expr>) -> LawValues {
     let frame = &lowering.mechanics.absolute;
     let mut environment = Environment::new(frame, Argument::Theta, Some(Argument::Omega), None);
@@ -41,7 +41,8 @@ pub(super) fn law_values(lowering: &mut Lowering<'_>, law: &FrictionLaw<Expr>) -
     law.map(|&value| constant(lowering, value))
 }
 
-/// The constants as values of the program.
+/// Returns the constants of the sectors (sets of symmetric coordinates: all means, or one
+/// difference between copies) as values of the program.
 pub(super) fn values(lowering: &mut Lowering<'_>, sectors: &OrbitMechanics) -> ConstantValues {
     let mechanics = lowering.mechanics;
     let frame = &mechanics.absolute;
@@ -99,7 +100,7 @@ pub(super) fn values(lowering: &mut Lowering<'_>, sectors: &OrbitMechanics) -> C
     }
 }
 
-/// Torques from outside on the links.
+/// Returns the external torques on the links.
 pub(super) fn outside_torques(tree: &mut SymmetricTree<'_>, scene: &Scene) -> Fields {
     let orbits = scene.orbits.iter().enumerate();
     let fields = orbits.map(|(orbit, links)| {
@@ -110,7 +111,7 @@ pub(super) fn outside_torques(tree: &mut SymmetricTree<'_>, scene: &Scene) -> Fi
     fields.collect()
 }
 
-/// The state that an entry point receives, with momenta, velocities and forces.
+/// Returns the state that an entry point receives, with momenta, velocities and forces.
 pub(super) fn motion(
     tree: &mut SymmetricTree<'_>,
     scene: &Scene,
@@ -143,7 +144,7 @@ pub(super) fn motion(
     }
 }
 
-/// An argument of an entry point as means and differences.
+/// Returns an argument of an entry point as means and differences.
 fn received(
     tree: &mut SymmetricTree<'_>,
     scene: &Scene,

@@ -1,7 +1,7 @@
 //! Torques of friction that is not viscous (physics §17).
 //!
-//! One function forms them for single links, written out and in loops. In symmetric
-//! coordinates of equal copies they are formed on means and differences.
+//! One function computes them for single links, written out and in loops. In symmetric coordinates
+//! of equal copies they are computed on means and differences.
 
 use super::ValueId;
 use super::builder::Builder;
@@ -10,13 +10,13 @@ use super::lower::{Environment, Lowering};
 use super::symmetric::Fields;
 use crate::mechanics::expression::{Expr, SymbolId};
 use crate::mechanics::{BrakingTorque, TorqueSource};
-use crate::scene::{FrictionLaw, FrictionPlace};
+use crate::scene::{FrictionContact, FrictionLaw};
 
-/// A law with values as its constants.
+/// A friction law whose constants are values of the program.
 pub(super) type Law = FrictionLaw<ValueId>;
 
 impl Builder {
-    /// √(w² + ε²).
+    /// Computes the speed √(w² + ε²).
     fn speed(&mut self, law: &Law, rate: ValueId, suffix: &str) -> ValueId {
         let square = self.mul(rate, rate);
         let width = self.mul(law.width, law.width);
@@ -25,7 +25,8 @@ impl Builder {
         self.name(speed, &format!("speed{suffix}"))
     }
 
-    /// (C/s + q s) w, zero without a law; `suffix` belongs to the names of its values.
+    /// Computes the torque (C/s + q s) w, zero without a law; `suffix` is appended to the names of
+    /// its values.
     pub(super) fn braking_torque(&mut self, law: &Law, rate: ValueId, suffix: &str) -> ValueId {
         let is_none = [law.coulomb, law.quadratic].map(|constant| self.is(constant, 0));
         if is_none == [true; 2] {
@@ -44,7 +45,7 @@ impl Builder {
         self.mul(factor, rate)
     }
 
-    /// The derivative of the torque by w, C ε²/s³ + q (s + w²/s).
+    /// Computes the derivative of the torque by w, C ε²/s³ + q (s + w²/s).
     fn braking_slope(&mut self, law: &Law, rate: ValueId, suffix: &str) -> ValueId {
         let speed = self.speed(law, rate, suffix);
         let one = self.integer(1);
@@ -60,7 +61,7 @@ impl Builder {
         self.add(coulomb, quadratic)
     }
 
-    /// The second derivative, [q (3 − w²/s²) − 3 C ε²/s⁴] w/s.
+    /// Computes the second derivative of the torque, [q (3 − w²/s²) − 3 C ε²/s⁴] w/s.
     fn braking_curvature(&mut self, law: &Law, rate: ValueId, suffix: &str) -> ValueId {
         let speed = self.speed(law, rate, suffix);
         let one = self.integer(1);
@@ -90,7 +91,7 @@ impl Lowering<'_> {
         law.map(|expr| self.expr(environment, expr))
     }
 
-    /// The value of a torque of friction or of its slope, if the symbol stands for one.
+    /// Returns the value of a friction torque or of its slope; `None` for other symbols.
     pub(super) fn braking(
         &mut self,
         environment: &mut Environment<'_>,
@@ -122,8 +123,9 @@ impl Lowering<'_> {
         }
     }
 
-    /// Supplies the torques at a place in symmetric coordinates.
-    fn braking_fields(&mut self, environment: &mut Environment<'_>, place: FrictionPlace) {
+    /// Supplies the friction torques in symmetric coordinates, for joints or for drag against the
+    /// ground.
+    fn braking_fields(&mut self, environment: &mut Environment<'_>, place: FrictionContact) {
         let (mechanics, frame) = (self.mechanics, environment.frame);
         let velocities = frame.velocities.iter();
         let velocities: Vec<ValueId> = velocities

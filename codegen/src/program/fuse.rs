@@ -1,24 +1,23 @@
-//! The fusion of products with the sums that they feed.
+//! Fusion of products with the sums that use them.
 //!
 //! # Rule
-//! A product that sums alone use, each of them formed anew from it, is part of
-//! these sums: x y + z, x y − z or z − x y, rounded once where the scalar fuses,
-//! and twice, as if it stood alone, where it does not. Of two such products in
-//! one sum the second is taken.
+//! If all uses of a product are sums, it becomes a part of these sums: x y + z, x y − z or z − x y.
+//! The result is rounded once if the scalar type supports fused operations, and twice otherwise, as
+//! for a separate product. If a sum has two such products, the second is fused.
 //!
-//! A difference of two products is never fused. It is zero where the products
-//! are equal: that sin θ_i cos θ_j − cos θ_i sin θ_j vanishes for equal angles
-//! keeps motions in phase for ever.
+//! A difference of two products is never fused, so that it is exactly zero if the products are
+//! equal. Because sin θ_i cos θ_j − cos θ_i sin θ_j vanishes for equal angles, in-phase motions
+//! stay in phase.
 
 use crate::functions::Purpose;
 
 use super::{Entry, Op, Pass, Program, ValueId};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// A sum with a product in it.
+/// A sum that contains a fused product.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct FusedSum {
-    /// The product.
+    /// The product that is fused with an addition.
     pub product: ValueId,
     /// True if the product is subtracted.
     pub minus_product: bool,
@@ -29,10 +28,9 @@ pub struct FusedSum {
 }
 
 impl Program {
-    /// The fused sums of an entry point, which are those of accelerations, with those of small
-    /// differences or without, and of links in loops: other
-    /// functions run in plain numbers. Linear in the program's length, times a
-    /// logarithm.
+    /// Returns the fused sums of an entry point. Operations are fused in accelerations (also in
+    /// those of small differences) and in functions of links in loops; other functions use plain
+    /// sums. Linear in the program's length, times a logarithm.
     pub fn fused(&self, entry: &Entry) -> BTreeMap<ValueId, FusedSum> {
         let accelerates = matches!(
             entry.purpose,
@@ -45,7 +43,7 @@ impl Program {
             return BTreeMap::new();
         }
         let needed = self.needed(&entry.outputs);
-        // Products that something else than a sum needs.
+        // Products that are used by other operations than sums.
         let mut kept: BTreeSet<ValueId> = entry.outputs.iter().copied().collect();
         let mut sums = self.sums(&needed, &kept);
         loop {
@@ -72,7 +70,7 @@ impl Program {
         matches!(self.definition(id).op, Op::Mul(..))
     }
 
-    /// The fused sums, if the products in `kept` are formed alone.
+    /// Returns the fused sums; the products in `kept` are computed separately.
     fn sums(&self, needed: &[ValueId], kept: &BTreeSet<ValueId>) -> BTreeMap<ValueId, FusedSum> {
         let free = |id: ValueId| self.is_product(id) && !kept.contains(&id);
         let fused = |id: ValueId| {
@@ -129,7 +127,7 @@ mod tests {
             .clone()
             .program(Purpose::Accelerations, vec![sum, minus]);
         let fused = program.fused(&program.entries[0]);
-        // Of two products in a sum the second; the first is formed for both.
+        // The second of two products in a sum; the first is computed separately for both.
         assert_eq!(fused[&sum].product, cd);
         assert!(!fused.contains_key(&minus));
         let program = builder.program(Purpose::Accelerations, vec![minus]);

@@ -1,5 +1,5 @@
-//! Evaluates a program in f64, operation by operation, in the order in which
-//! emitted code does: the two agree bit for bit.
+//! Evaluates a program in `f64`, operation by operation, in the order of the emitted code: the
+//! results agree bit for bit.
 
 use super::constants::{ConstantId, ConstantOp, Setup};
 use super::{FusedSum, Op, Program, ValueId};
@@ -7,8 +7,8 @@ use crate::exact::Rational;
 use crate::functions::Argument;
 
 impl Setup {
-    /// Values of all constants for given values of the scene's parameters.
-    /// A constant without parameters is rounded once from its exact value.
+    /// Returns the values of all constants for the given parameters of the scene. A constant
+    /// without parameters is rounded once from its exact value.
     pub fn evaluate(&self, parameters: &[f64]) -> Vec<f64> {
         let mut values: Vec<f64> = Vec::with_capacity(self.definitions.len());
         for definition in &self.definitions {
@@ -28,7 +28,7 @@ impl Setup {
     }
 }
 
-/// number · a · a · b / (c · d), each product from the left.
+/// Computes number · a · a · b / (c · d), each product from left to right.
 fn product(number: &Rational, powers: &[(ConstantId, i32)], at: impl Fn(ConstantId) -> f64) -> f64 {
     let mut above = number.to_f64();
     let mut below: Option<f64> = None;
@@ -44,11 +44,11 @@ fn product(number: &Rational, powers: &[(ConstantId, i32)], at: impl Fn(Constant
     below.map_or(above, |divisor| above / divisor)
 }
 
-/// An entry point made ready to be evaluated many times: constants are rounded, needed
-/// operations and fused sums found once.
+/// An entry point prepared for many evaluations: constants are rounded, and needed operations and
+/// fused sums are determined, only once.
 #[derive(Clone, Debug)]
 pub struct Interpreter {
-    /// One for each definition; those of numbers and constants stand in them.
+    /// One value per definition; numbers and constants are already computed.
     values: Vec<f64>,
     steps: Vec<(ValueId, Instruction)>,
     outputs: Vec<ValueId>,
@@ -57,15 +57,15 @@ pub struct Interpreter {
 #[derive(Clone, Debug)]
 enum Instruction {
     Op(Op),
-    /// Product and sum at once, with the product's factors.
+    /// A product and a sum in one operation, with the product's factors.
     Fused([ValueId; 2], FusedSum),
 }
 
 impl Interpreter {
-    /// Returns the outputs, each product and sum rounded.
+    /// Returns the outputs, with each product and sum rounded.
     ///
-    /// `sin_cos` is the sine and cosine that emitted code would use, `input` supplies the
-    /// elements of the arguments. Linear in the length of the entry point.
+    /// `sin_cos` returns the sine and cosine that emitted code would use, `input` the elements of
+    /// the arguments. Linear in the length of the entry point.
     pub fn evaluate(
         &self,
         sin_cos: impl Fn(f64) -> (f64, f64),
@@ -74,8 +74,8 @@ impl Interpreter {
         self.evaluate_fused(sin_cos, |x, y, z| x * y + z, input)
     }
 
-    /// Returns the outputs, as [`evaluate`](Self::evaluate), with a multiply-add
-    /// x · y + z of the caller's wherever emitted code has a fused one.
+    /// Evaluates the outputs like [`evaluate`](Self::evaluate), but uses the caller's multiply-add
+    /// x · y + z wherever the emitted code has a fused one.
     pub fn evaluate_fused(
         &self,
         sin_cos: impl Fn(f64) -> (f64, f64),
@@ -110,8 +110,8 @@ impl Interpreter {
 }
 
 impl Program {
-    /// Returns the interpreter of an entry point for `parameters`, the scene's in order, or
-    /// nothing if there is no such entry point.
+    /// Returns the interpreter of an entry point for the given parameters, in the scene's order, or
+    /// `None` if there is no such entry point.
     pub fn interpreter(&self, entry: &str, parameters: &[f64]) -> Option<Interpreter> {
         let entry = self.entry(entry)?;
         let fused = self.fused(entry);
@@ -141,8 +141,8 @@ impl Program {
         })
     }
 
-    /// Returns the outputs of an entry point, evaluated once:
-    /// [`interpreter`](Self::interpreter) and [`Interpreter::evaluate`].
+    /// Evaluates the outputs of an entry point once, by [`interpreter`](Self::interpreter) and
+    /// [`Interpreter::evaluate`].
     pub fn evaluate(
         &self,
         sin_cos: impl Fn(f64) -> (f64, f64),

@@ -1,11 +1,11 @@
-//! Number of values that wait for a later use, which the registers have to
-//! hold.
+//! Number of live values: values that are computed and still needed, which must be kept in
+//! registers.
 
 use super::{Definition, Entry, Op, Program, ValueId};
 
 impl Program {
-    /// The largest number of values that wait for a later use at one time in the
-    /// code of an entry point, inputs and constants aside. Linear in the program.
+    /// Returns the largest number of live values in the code of an entry point, except inputs and
+    /// constants. Linear in the length of the program.
     pub fn live(&self, entry: &Entry) -> usize {
         live(
             &self.definitions,
@@ -15,13 +15,13 @@ impl Program {
     }
 }
 
-/// Values that are kept rather than formed: they cost no register until used.
+/// Returns true for inputs, numbers and constants, which need no register until they are used.
 fn is_leaf(op: &Op) -> bool {
     matches!(op, Op::Input(..) | Op::Constant(_) | Op::Number(_))
 }
 
-/// The largest number of values that wait for a later use at one time, inputs
-/// and constants aside, if they are formed in that order.
+/// Returns the largest number of live values, except inputs and constants, if they are computed in
+/// the given order.
 fn live(definitions: &[Definition], order: &[ValueId], outputs: &[ValueId]) -> usize {
     let mut last = vec![0; definitions.len()];
     for (place, id) in order.iter().enumerate() {
@@ -56,7 +56,8 @@ mod tests {
     use crate::functions::{Argument, Purpose};
     use crate::program::builder::Builder;
 
-    /// Four products before three sums wait together; each sum at once lets two wait.
+    /// Checks that four products before three sums are all counted as live, but only two if each
+    /// sum follows its products.
     #[test]
     fn what_waits_is_counted() {
         let [all_first, at_once] = [true, false].map(|all_first| {

@@ -1,8 +1,7 @@
-//! Expressions become program values.
+//! Conversion of expressions to values of the program.
 //!
-//! An [`Environment`] says what the caller hands over (angles and velocities, or
-//! coordinates and momenta); a symbol that is not handed over is formed from
-//! what is, when it is first needed.
+//! An [`Environment`] names the arguments of the function (angles and velocities, or coordinates
+//! and momenta). Any other symbol is computed from them when it is first needed.
 
 use super::ValueId;
 use super::builder::Builder;
@@ -17,31 +16,30 @@ use crate::mechanics::{
 };
 use std::collections::BTreeMap;
 
-/// Lowering in progress.
+/// State of the conversion of mechanics to a program.
 #[derive(Clone)]
 pub(super) struct Lowering<'a> {
     pub(super) mechanics: &'a Mechanics,
     pub(super) builder: Builder,
     pub(super) constants: BTreeMap<SymbolId, ConstantId>,
-    /// The orbits with their means and differences, where the scene has symmetric
-    /// coordinates.
+    /// Orbits (equal copies of one link) with their means and differences, if the scene has
+    /// symmetric coordinates.
     pub(super) orbits: &'a [OrbitLinks],
 }
 
-/// Values for the symbols of one frame: handed over by the caller, or formed on
-/// demand.
+/// Values of the symbols of one frame: arguments of the function, or values computed on demand.
 #[derive(Clone)]
 pub(super) struct Environment<'a> {
     pub(super) frame: &'a Frame,
     /// Argument that holds the coordinates.
     pub(super) coordinates: Argument,
-    /// Argument that holds the velocities; solved from the momenta if none.
+    /// Argument that holds the velocities. Without one, they are computed from the momenta.
     pub(super) velocities: Option<Argument>,
-    /// Argument that holds the momenta; formed from the velocities if none.
+    /// Argument that contains the momenta. Without one, they are computed from the velocities.
     pub(super) momenta: Option<Argument>,
-    /// Argument that holds torques from outside, if there are any.
+    /// Argument that holds external torques, if there is one.
     pub(super) torques: Option<Argument>,
-    /// Quantities that observables refer to beside the frame.
+    /// Quantities that observables use, in addition to those of the frame.
     pub(super) observed: Option<&'a ObservableFrame>,
     values: BTreeMap<SymbolId, ValueId>,
 }
@@ -64,12 +62,12 @@ impl<'a> Environment<'a> {
         }
     }
 
-    /// The value that a symbol has got already.
+    /// Returns the value of a symbol, if it is known already.
     pub(super) fn supplied(&self, symbol: SymbolId) -> Option<ValueId> {
         self.values.get(&symbol).copied()
     }
 
-    /// Hands over the value of a symbol.
+    /// Sets the value of a symbol.
     pub(super) fn supply(&mut self, symbol: SymbolId, value: ValueId) {
         self.values.insert(symbol, value);
     }
@@ -92,7 +90,7 @@ impl<'a> Lowering<'a> {
         }
     }
 
-    /// The value of a symbol in an environment.
+    /// Returns the value of a symbol in an environment.
     pub(super) fn symbol(
         &mut self,
         environment: &mut Environment<'_>,
@@ -150,7 +148,8 @@ impl<'a> Lowering<'a> {
         value
     }
 
-    /// Σ w θ of the angles, or of the angular velocities, at the ends of a spring, from rest.
+    /// Computes the difference of two angles minus a rest angle, Σ w θ − ρ, or the difference of
+    /// two angular velocities, Σ w ω, at the two ends of a spring.
     fn joint_difference(&mut self, environment: &mut Environment<'_>, symbol: SymbolId) -> ValueId {
         let JointDifference { terms, rest } = &self.mechanics.joints[&symbol];
         let mut value = self.builder.integer(0);
@@ -167,7 +166,7 @@ impl<'a> Lowering<'a> {
         self.builder.sub(value, rest)
     }
 
-    /// A momentum, from the caller or from angles and velocities.
+    /// Returns a momentum, from an argument or from angles and velocities.
     fn momentum(&mut self, environment: &mut Environment<'_>, symbol: SymbolId) -> ValueId {
         let index = position(&environment.frame.momenta, symbol);
         if let Some(argument) = environment.momenta {
@@ -182,7 +181,7 @@ impl<'a> Lowering<'a> {
         self.builder.name(value, code)
     }
 
-    /// q̇ with M q̇ = p.
+    /// Solves M q̇ = p for the velocities q̇.
     fn velocities(&mut self, environment: &mut Environment<'_>) -> Vec<ValueId> {
         let frame = environment.frame;
         let mass = self.mass_matrix(environment);
@@ -201,12 +200,16 @@ impl<'a> Lowering<'a> {
         solution
     }
 
-    /// A torque of friction, or a velocity of the expansion: w with M⁽⁰⁾ w = p, or a
+    /// Computes a friction torque, or a velocity of the expansion: w with M⁽⁰⁾ w = p, or a
     /// correction to it.
     fn derived(&mut self, environment: &mut Environment<'_>, symbol: SymbolId) -> ValueId {
         let mechanics = self.mechanics;
         if let Some(torque) = self.braking(environment, symbol) {
             return torque;
+        }
+        let normal_form = mechanics.normal_form.as_ref();
+        if let Some(definition) = normal_form.and_then(|form| form.definition(symbol)) {
+            return self.of_normal_form(environment, definition);
         }
         if let Some(mean_tree) = &mechanics.mean_tree {
             let added = self.added(environment, mean_tree);
@@ -244,7 +247,8 @@ impl<'a> Lowering<'a> {
         unreachable!("{} is defined nowhere", mechanics.symbols.get(symbol).code)
     }
 
-    /// The velocities that the mismatch of copies adds.
+    /// Computes the velocities that the mismatches of copies (deviations from their mean constants)
+    /// add.
     pub(super) fn added(
         &mut self,
         environment: &mut Environment<'_>,
@@ -288,7 +292,7 @@ impl<'a> Lowering<'a> {
         solution
     }
 
-    /// Names of a frame's coordinates, without `theta_`.
+    /// Returns the names of a frame's coordinates, without `theta_`.
     pub(super) fn coordinate_names(&self, frame: &Frame) -> Vec<String> {
         frame
             .coordinates
@@ -300,7 +304,7 @@ impl<'a> Lowering<'a> {
             .collect()
     }
 
-    /// The entries of the frame's mass matrix as values, named.
+    /// Returns the entries of the frame's mass matrix as named values.
     pub(super) fn mass_matrix(&mut self, environment: &mut Environment<'_>) -> Matrix {
         let names = self.coordinate_names(environment.frame);
         let matrix = self.matrix(environment, &environment.frame.mass);
@@ -311,7 +315,7 @@ impl<'a> Lowering<'a> {
         matrix
     }
 
-    /// A matrix's entries as values.
+    /// Returns the entries of a matrix as values.
     pub(super) fn matrix(
         &mut self,
         environment: &mut Environment<'_>,
@@ -326,8 +330,8 @@ impl<'a> Lowering<'a> {
             .collect()
     }
 
-    /// An expression as a value. Sums start with a positive term if they have
-    /// one, so that no operation is spent on a sign.
+    /// Returns an expression as a value. Sums start with a positive term if they have one, so that
+    /// no operation is spent on a sign.
     pub(super) fn expr(&mut self, environment: &mut Environment<'_>, expr: &Expr) -> ValueId {
         match expr {
             Expr::Number(number) => self.builder.number(number.clone()),

@@ -1,9 +1,9 @@
-//! The flat program that code is written from.
+//! The flat program from which code is emitted.
 //!
-//! A [`Program`] is one list of definitions in which every value uses only
-//! earlier ones; entry points name their outputs in it. Equal operations on
-//! equal operands are one value. Constants of the model are a second, smaller
-//! list of the same kind ([`Setup`]), evaluated once.
+//! A [`Program`] is one list of definitions in which every value uses earlier ones only; the
+//! outputs of entry points are values of this list. Equal operations on equal operands are one
+//! value. The constants of the model are a second, smaller list of the same kind ([`Setup`]),
+//! evaluated once per model.
 
 mod angles;
 mod builder;
@@ -26,6 +26,7 @@ mod live;
 mod lower;
 mod named;
 mod nested_observables;
+mod normal_form;
 mod observables;
 mod operation;
 mod pair;
@@ -70,13 +71,13 @@ pub use verify::Fault;
 use crate::mechanics::Mechanics;
 use crate::scene::{Scene, Solve};
 
-/// Lowers everything that the scene asks for into one program, without one of the passes
-/// where the worth of that one is to be seen.
+/// Converts all requested quantities to one program. With `off`, leaves out one of the passes, to
+/// measure what that pass gains.
 ///
 /// Linear in the size of the mechanics, times a logarithm.
 ///
 /// # Errors
-/// [`TooManyValues`] where there would be more than [`MOST_VALUES`].
+/// [`TooManyValues`] if there would be more than [`MOST_VALUES`].
 pub fn lower(
     off: Option<Pass>,
     scene: &Scene,
@@ -105,49 +106,49 @@ pub fn lower(
     Ok(program)
 }
 
-/// The solve for the accelerations in absolute angles, and the cost of both.
+/// Chosen method of solving for the accelerations in absolute angles, and the cost of both methods.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct SolveChoice {
-    /// The solve that is emitted.
+    /// The method that the code uses.
     pub solve: Solve,
-    /// Operations of the factorisation; `None` where it is too long to be formed.
+    /// Operations of the factorisation; `None` if it is too long to be derived.
     pub factorization: Option<Operations>,
-    /// Operations of the recursion.
+    /// Operations of the articulated recursion.
     pub recursion: Operations,
 }
 
-/// All of a scene's code in one list.
+/// The code of a scene as one list of values.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Program {
     /// Values; each uses earlier ones only.
     pub definitions: Vec<Definition>,
     /// Entry points in the order in which they are emitted.
     pub entries: Vec<Entry>,
-    /// The model's constants.
+    /// Constants of the model.
     pub setup: Setup,
-    /// The solve for the accelerations, and its cost.
+    /// Chosen method of solving for the accelerations, with its cost.
     pub choice: SolveChoice,
-    /// The constants by strip, where the code is loops.
+    /// Constants of the links, if the code is loops.
     pub strips: Option<LoopTree>,
-    /// The pass that was left out, for comparison.
+    /// Pass that was left out, for comparison.
     pub without: Option<Pass>,
 }
 
-/// Reason for which a program could not be written.
+/// Error: the program would have more than [`MOST_VALUES`] values.
 #[derive(Clone, Copy, Debug)]
 pub struct TooManyValues;
 
-/// Most values of a program before its passes: twice as many as all exact forms of the
-/// budget of 31 links have.
+/// Largest number of values of a program before its passes: twice as many as all exact forms of the
+/// budget of 31 links need.
 pub const MOST_VALUES: usize = 120_000;
 
 impl Program {
-    /// The definition of a value.
+    /// Returns the definition of a value.
     pub fn definition(&self, id: ValueId) -> &Definition {
         &self.definitions[id.0 as usize]
     }
 
-    /// The entry point of that name.
+    /// Returns the entry point with the given name.
     pub fn entry(&self, name: &str) -> Option<&Entry> {
         self.entries.iter().find(|entry| entry.name == name)
     }

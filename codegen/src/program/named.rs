@@ -1,5 +1,5 @@
-//! Parameters and named constants of the mechanics become constants of the
-//! setup.
+//! Conversion of parameters and named constants of the derived mechanics to constants of the
+//! program, which are computed once per model.
 
 use super::ValueId;
 use super::constants::{ConstantId, Setup};
@@ -8,8 +8,8 @@ use crate::exact::Rational;
 use crate::mechanics::expression::{Expr, SymbolId};
 
 impl Lowering<'_> {
-    /// The constant of the setup that a parameter or constant symbol stands
-    /// for.
+    /// Returns the constant of the program that belongs to the symbol of a parameter, or of a
+    /// constant of the mechanics.
     pub(super) fn constant(&mut self, symbol: SymbolId) -> ConstantId {
         if let Some(&id) = self.constants.get(&symbol) {
             return id;
@@ -21,7 +21,7 @@ impl Lowering<'_> {
         let id = match (parameter, constant) {
             (Some(index), _) => self.builder.setup.parameter(index, code),
             (None, Some(index)) => {
-                // Equal constants are one.
+                // Equal constants share one representative.
                 let own = mechanics.representative(index);
                 let constant = &mechanics.constants[own];
                 let code = &mechanics.symbols.get(constant.symbol).code;
@@ -36,7 +36,7 @@ impl Lowering<'_> {
         id
     }
 
-    /// A property of a link: the constant of the mechanics that it is, if it is one.
+    /// Returns a property of a link; the existing constant of the mechanics if it equals one.
     pub(super) fn property(&mut self, value: &Expr, unit: &str) -> ValueId {
         let mechanics = self.mechanics;
         let mut constants = mechanics.constants.iter();
@@ -48,7 +48,7 @@ impl Lowering<'_> {
         self.builder.constant(constant)
     }
 
-    /// An expression in parameters as a constant of the setup.
+    /// Returns an expression in parameters as a constant of the setup.
     fn constant_expr(&mut self, expr: &Expr) -> ConstantId {
         match expr {
             Expr::Number(number) => self.builder.setup.number(number.clone()),

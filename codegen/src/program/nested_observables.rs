@@ -1,6 +1,6 @@
-//! Quantities that observables of nested trees refer to, formed on means and
-//! differences: momenta, forces, energies, and the solves with the mass matrix.
-//! Components that the symmetry makes zero are exactly zero here too.
+//! Quantities that observables of nested copies use, computed on means and differences: momenta,
+//! forces, energies, and solutions of systems with the mass matrix. Components that are zero by
+//! symmetry are exactly zero here too.
 
 use super::ValueId;
 use super::entry_state::{motion, symmetric_tree, values};
@@ -12,11 +12,11 @@ use crate::mechanics::expression::SymbolId;
 use crate::mechanics::{LinearSystem, ObservableFrame, OrbitMechanics};
 use crate::scene::Scene;
 
-/// A nested tree on which observables are formed.
+/// Computes quantities for observables of nested copies.
 pub(super) struct NestedObservables<'s> {
     scene: &'s Scene,
     values: ConstantValues,
-    /// The mass matrix at the coordinates that are handed over.
+    /// Factors of the mass matrix at the given coordinates.
     factors: MassFactors,
 }
 
@@ -38,7 +38,7 @@ impl<'s> NestedObservables<'s> {
         }
     }
 
-    /// Supplies the symbols that are `used`, in a state of the form `state`.
+    /// Computes the symbols that are `used` and sets their values in `state`.
     pub(super) fn supply(
         &self,
         lowering: &mut Lowering<'_>,
@@ -66,7 +66,7 @@ impl<'s> NestedObservables<'s> {
         let mut forces = tree.subtract(&kinetic, &potential);
         tree.drive(&mut forces, values, &motion.pose);
         project(&mut tree, &used.forces, &forces);
-        // At fixed momenta K has the opposite slope.
+        // At fixed momenta the slope of K has the opposite sign.
         let slopes = forces.iter().map(|force| tree.neg(force)).collect();
         project(&mut tree, &used.slopes, &slopes);
         let changes = tree.mass_changes(&motion.pose, &motion.rates);
@@ -97,7 +97,7 @@ impl<'s> NestedObservables<'s> {
         }
     }
 
-    /// Solves a system with the mass matrix and supplies its unknowns.
+    /// Solves a system with the mass matrix and sets the values of its unknowns.
     pub(super) fn solve(
         &self,
         lowering: &mut Lowering<'_>,

@@ -1,4 +1,4 @@
-//! Entry points of observables: values and rates.
+//! Entry points for the values and rates of observables.
 
 use super::ValueId;
 use super::entry_list::EntryList;
@@ -10,7 +10,7 @@ use crate::mechanics::{Frame, LinearSystem, Mechanics, ObservableFrame};
 use crate::scene::{Function, Scene};
 
 impl Lowering<'_> {
-    /// The value of a symbol that only observables have.
+    /// Returns the value of a symbol that occurs in observables only.
     pub(super) fn observed(
         &mut self,
         environment: &mut Environment<'_>,
@@ -29,7 +29,7 @@ impl Lowering<'_> {
         Some(self.expr(environment, definition))
     }
 
-    /// Solves a system with the mass matrix and hands its unknowns over.
+    /// Solves a system with the mass matrix and sets the values of its unknowns.
     fn solve_system(&mut self, environment: &mut Environment<'_>, system: &LinearSystem) {
         let matrix = self.mass_matrix(environment);
         let right = system
@@ -47,25 +47,25 @@ impl Lowering<'_> {
     }
 }
 
-/// The arguments and environments of one frame.
-struct Ways<'a> {
-    /// Supply from coordinates and velocities.
+/// Environments of one frame, for the two sets of arguments.
+struct Environments<'a> {
+    /// Environment with coordinates and velocities as arguments.
     motion: Environment<'a>,
-    /// Supply from coordinates and momenta.
+    /// Environment with coordinates and momenta as arguments.
     phase: Environment<'a>,
-    /// The solver with the mass matrix, on nested trees.
+    /// Solver with the mass matrix, for nested copies.
     nested: Option<NestedObservables<'a>>,
 }
 
 impl EntryList<'_, '_> {
-    /// Value and rate of every observable.
+    /// Adds value and rate of every observable.
     pub(super) fn observables(&mut self, scene: &Scene, mechanics: &Mechanics) {
         use Argument::{AbsoluteMomenta, Coordinates, Momenta, Omega, Rates, Theta};
         let observables = &mechanics.observables;
         if observables.list.is_empty() {
             return;
         }
-        let mut absolute = self.ways(
+        let mut absolute = self.environments(
             &mechanics.absolute,
             &observables.absolute,
             Purpose::Accelerations,
@@ -75,46 +75,51 @@ impl EntryList<'_, '_> {
         let symmetric = mechanics.symmetric.as_ref().filter(|_| asked);
         let mut symmetric = symmetric.map(|frame| {
             let used = &observables.symmetric;
-            let mut ways = self.ways(
+            let mut environments = self.environments(
                 frame,
                 used,
                 Purpose::SymmetricAccelerations,
                 ([Coordinates, Rates], [Coordinates, Momenta]),
             );
-            // Only the names of the frame are derived then.
+            // In this case only the names of the frame are derived.
             if frame.mass.is_empty()
                 && let Some(sectors) = &mechanics.sectors
             {
                 let nested = NestedObservables::new(self.lowering, scene, sectors);
-                nested.supply(self.lowering, used, &mut ways.motion, EntryState::Rates);
+                nested.supply(
+                    self.lowering,
+                    used,
+                    &mut environments.motion,
+                    EntryState::Rates,
+                );
                 if scene.requests.momenta {
-                    nested.supply(self.lowering, used, &mut ways.phase, CANONICAL);
+                    nested.supply(self.lowering, used, &mut environments.phase, CANONICAL);
                 }
-                ways.nested = Some(nested);
+                environments.nested = Some(nested);
             }
-            ways
+            environments
         });
         for (number, observable) in observables.list.iter().enumerate() {
-            let ways = match (&mut symmetric, observable.symmetric) {
+            let environments = match (&mut symmetric, observable.symmetric) {
                 (Some(symmetric), true) => symmetric,
                 _ => &mut absolute,
             };
-            self.observable(mechanics, number, ways);
+            self.observable(mechanics, number, environments);
         }
     }
 
-    fn ways<'a>(
+    fn environments<'a>(
         &mut self,
         frame: &'a Frame,
         used: &'a ObservableFrame,
         solved: Purpose,
         (velocities, momenta): ([Argument; 2], [Argument; 2]),
-    ) -> Ways<'a> {
+    ) -> Environments<'a> {
         let mut motion = Environment::new(frame, velocities[0], Some(velocities[1]), None);
         let mut phase = Environment::new(frame, momenta[0], None, Some(momenta[1]));
         motion.observed = Some(used);
         phase.observed = Some(used);
-        // The accelerations are solved for anyway.
+        // The accelerations are computed already.
         if let Some(entry) = self.entries.iter().find(|entry| entry.purpose == solved) {
             for (&symbol, &value) in used.accelerations.iter().zip(&entry.outputs) {
                 motion.supply(symbol, value);
@@ -123,27 +128,32 @@ impl EntryList<'_, '_> {
         if let Some(system) = &used.friction {
             self.lowering.solve_system(&mut motion, system);
         }
-        Ways {
+        Environments {
             motion,
             phase,
             nested: None,
         }
     }
 
-    fn observable(&mut self, mechanics: &Mechanics, number: usize, ways: &mut Ways<'_>) {
+    fn observable(
+        &mut self,
+        mechanics: &Mechanics,
+        number: usize,
+        environments: &mut Environments<'_>,
+    ) {
         let observable = &mechanics.observables.list[number];
         use ObservableForm::{FrictionRate, FromMomenta, Rate, RateFromMomenta, Value};
-        let motion = &mut ways.motion;
+        let motion = &mut environments.motion;
         self.form(number, Value, motion, &observable.value);
         self.form(number, Rate, motion, &observable.rate);
         if !observable.friction.is_zero() {
             self.form(number, FrictionRate, motion, &observable.friction);
         }
         if let Some(canonical) = &observable.canonical {
-            let phase = &mut ways.phase;
+            let phase = &mut environments.phase;
             self.form(number, FromMomenta, phase, &observable.value);
             if let Some(system) = &canonical.adjoint {
-                match &ways.nested {
+                match &environments.nested {
                     Some(nested) => nested.solve(self.lowering, phase, system),
                     None => self.lowering.solve_system(phase, system),
                 }

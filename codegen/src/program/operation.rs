@@ -1,4 +1,4 @@
-//! Values of a program: one operation each, on earlier ones.
+//! Values of a program: each is one operation on earlier values.
 
 use crate::functions::Argument;
 
@@ -16,15 +16,15 @@ pub enum Op {
     Input(Argument, usize),
     /// A constant of the model.
     Constant(ConstantId),
-    /// A number known when the code is written.
+    /// A number that is known when the code is emitted.
     Number(Rational),
-    /// Sine; its partner `Cos` of the same value is computed with it.
+    /// Sine. The `Cos` of the same operand is computed together with it.
     Sin(ValueId),
     /// Cosine.
     Cos(ValueId),
     /// Square root.
     Sqrt(ValueId),
-    /// Opposite.
+    /// Change of sign.
     Neg(ValueId),
     /// Sum.
     Add(ValueId, ValueId),
@@ -37,7 +37,7 @@ pub enum Op {
 }
 
 impl Op {
-    /// The operands, none to two.
+    /// Returns the operands, at most two.
     pub fn operands(&self) -> impl Iterator<Item = ValueId> {
         let (first, second) = match *self {
             Self::Input(..) | Self::Constant(_) | Self::Number(_) => (None, None),
@@ -49,7 +49,7 @@ impl Op {
         first.into_iter().chain(second)
     }
 
-    /// This operation on other operands.
+    /// Returns this operation with its operands replaced by `of`.
     pub(crate) fn with_operands(&self, of: impl Fn(ValueId) -> ValueId) -> Self {
         match *self {
             Self::Input(..) | Self::Constant(_) | Self::Number(_) => self.clone(),
@@ -65,13 +65,13 @@ impl Op {
     }
 }
 
-/// A value: how it is formed, and its name if it means something by itself.
+/// A value: its operation, and a name if it has a meaning.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Definition {
-    /// The operation.
+    /// The operation that computes the value.
     pub op: Op,
     /// Name in emitted code; unnamed values are written in place.
     pub name: Option<String>,
-    /// Name for it where code needs one, if one is known.
+    /// Suggested name, used if the emitted code needs one.
     pub hint: Option<String>,
 }

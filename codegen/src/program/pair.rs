@@ -1,9 +1,9 @@
-//! Vectors in the plane, as pairs of values; or complex numbers.
+//! Vectors in the plane, or complex numbers, as pairs of values.
 
 use super::ValueId;
 use super::builder::Builder;
 
-/// Horizontal and upwards; or real and imaginary part.
+/// A vector (horizontal, upwards), or a complex number (real, imaginary).
 pub(super) type Pair = [ValueId; 2];
 
 impl Builder {
@@ -23,20 +23,20 @@ impl Builder {
         a.map(|component| self.mul(factor, component))
     }
 
-    /// a·b.
+    /// Returns the scalar product a·b.
     pub(super) fn dot(&mut self, a: Pair, b: Pair) -> ValueId {
         let (first, second) = (self.mul(a[0], b[0]), self.mul(a[1], b[1]));
         self.add(first, second)
     }
 
-    /// a × b, upwards out of the plane.
+    /// Returns the cross product a × b, the component perpendicular to the plane.
     pub(super) fn cross(&mut self, a: Pair, b: Pair) -> ValueId {
         let (first, second) = (self.mul(a[0], b[1]), self.mul(a[1], b[0]));
         self.sub(first, second)
     }
 
-    /// a b, as complex numbers.
-    pub(super) fn turn(&mut self, a: Pair, b: Pair) -> Pair {
+    /// Returns the product a b of complex numbers.
+    pub(super) fn complex_product(&mut self, a: Pair, b: Pair) -> Pair {
         let real = [self.mul(a[0], b[0]), self.mul(a[1], b[1])];
         let imaginary = [self.mul(a[0], b[1]), self.mul(a[1], b[0])];
         [
@@ -45,7 +45,7 @@ impl Builder {
         ]
     }
 
-    /// Names both components, with `_x` and `_y` in the place of the `@`.
+    /// Names both components; `_x` or `_y` replaces the `@` in the name.
     pub(super) fn name_pair(&mut self, a: Pair, name: &str) -> Pair {
         for (component, axis) in a.into_iter().zip(["_x", "_y"]) {
             self.name(component, &name.replacen('@', axis, 1));

@@ -1,18 +1,18 @@
-//! The passes over programs, each a file with one idea, and what each is worth.
+//! The optimisation passes over programs, one idea per file, and a table of their effects.
 //!
 //! | pass | where | acts |
 //! |---|---|---|
-//! | signs, folding, sharing | `builder/rules/` | on an operation when it is formed |
-//! | angle addition | `angles.rs` | on the sine or cosine of a difference when it is formed |
-//! | choice of solve | `choice.rs` | on the accelerations, derived both ways |
+//! | signs, folding, sharing | `builder/rules/` | on an operation when it is built |
+//! | angle addition | `angles.rs` | on the sine or cosine of a difference when it is built |
+//! | choice of solve | `choice.rs` | on the accelerations, derived by both methods |
 //! | common factors | `factors.rs` | on whole programs |
-//! | fusing | `fuse.rs` | on an entry point, for emission and interpreter alike |
+//! | fusing | `fuse.rs` | on an entry point, for emission and interpreter |
 //! | dead code | `dead.rs` | on an entry point, which is the program pruned to its outputs |
 //! | order | `emit/sink.rs` | on accelerations with more values than registers |
 //! | splitting | `emit/parts/` | on functions that are too long for the compiler |
 //!
-//! Every one keeps what [`Program::verify`] checks, and the meaning: exactly, or within
-//! the roundings that its file states.
+//! Every pass preserves the properties that [`Program::verify`] checks, and the values: exactly, or
+//! within the roundings that its file states.
 
 use super::count::{Operations, operations};
 use super::{Entry, Pass, Program, ValueId, factors, lower};
@@ -21,16 +21,17 @@ use crate::mechanics::Mechanics;
 use crate::scene::Scene;
 use std::fmt::Write;
 
-/// A pass over whole programs.
-type Over = fn(Program) -> Program;
+/// A function that transforms a whole program.
+type ProgramPass = fn(Program) -> Program;
 
-/// The passes over whole programs, in their order.
-pub(super) const PASSES: [(Pass, Over); 1] = [(Pass::CommonFactors, factors::common_factors)];
+/// Passes over whole programs, in their order.
+pub(super) const PASSES: [(Pass, ProgramPass); 1] =
+    [(Pass::CommonFactors, factors::common_factors)];
 
-/// A table of the operations of the accelerations, of the sums among them that have a
-/// product in them, of the values that wait at most, and of the operations of all
-/// entry points, with all passes and without each. Without dead code left out, every
-/// entry point would be the whole program.
+/// Returns a table of the effects of the passes, with a row for all passes and a row without each
+/// of them. Its columns are the operations of the accelerations, the number of their fused sums,
+/// their largest number of live values, and the operations of all entry points. Without the removal
+/// of dead code, every entry point would be the whole program.
 pub fn worth(scene: &Scene, mechanics: &Mechanics) -> String {
     let motion = match scene.in_loops() {
         true => "one link with children",
@@ -71,7 +72,8 @@ pub fn worth(scene: &Scene, mechanics: &Mechanics) -> String {
 }
 
 impl Program {
-    /// The accelerations; of a tree in loops, all that is done for a link with children.
+    /// Returns the entry point of the accelerations; for a tree in loops, one with all operations
+    /// for a link with children.
     fn motion(&self) -> Option<Entry> {
         if self.strips.is_none() {
             return self.entry("accelerations").cloned();
@@ -93,7 +95,7 @@ impl Program {
     }
 }
 
-/// Operations of all definitions, needed or not.
+/// Counts the operations of all definitions, including unused ones.
 fn whole(program: &Program) -> Operations {
     let all: Vec<ValueId> = (0..program.definitions.len() as u32).map(ValueId).collect();
     operations(&program.definitions, &all)

@@ -1,5 +1,5 @@
-//! Entry points of where links are: positions and velocities of their points, and the
-//! torques of forces there.
+//! Entry points for positions and velocities of the links' points, and for the torques of forces at
+//! these points.
 
 use super::ValueId;
 use super::entry_list::EntryList;
@@ -10,7 +10,7 @@ use crate::mechanics::expression::Expr;
 use crate::mechanics::{LinkPositions, Mechanics, RelativePosition};
 use crate::scene::{LinkId, Scene};
 
-/// Names and units of the properties of a link, in their order.
+/// Names and units of the properties of a link, in order.
 const PROPERTIES: [(&str, &str); LINK_PROPERTIES.len()] = [
     ("mass", "kg"),
     ("inertia_about_centre", "kg m²"),
@@ -22,7 +22,7 @@ const PROPERTIES: [(&str, &str); LINK_PROPERTIES.len()] = [
     ("across_end", "m"),
 ];
 
-/// The tree, the positions in it, and a kind of points.
+/// The tree, the positions of its links, and a kind of points.
 #[derive(Clone, Copy)]
 struct Points<'a> {
     scene: &'a Scene,
@@ -31,7 +31,7 @@ struct Points<'a> {
 }
 
 impl Points<'_> {
-    /// The point of a link from its pivot; none of the pivot itself.
+    /// Returns the point of a link relative to the link's pivot; `None` for the pivot itself.
     fn of(&self, link: usize) -> Option<&RelativePosition> {
         match self.kind {
             PointKind::Pivot => None,
@@ -40,7 +40,7 @@ impl Points<'_> {
         }
     }
 
-    /// The pivot of a link from that of its parent.
+    /// Returns the parent and the position of a link's pivot relative to the parent's pivot.
     fn pivot(&self, link: usize) -> Option<(usize, &RelativePosition)> {
         let LinkId(parent) = self.scene.links[link].parent?;
         Some((parent, self.links[link].pivot.as_ref()?))
@@ -87,7 +87,7 @@ impl EntryList<'_, '_> {
         [x, y].map(|expr| self.lowering.expr(environment, expr))
     }
 
-    /// Sums of a vector from the root to the points of all links.
+    /// Adds a vector along the path from the root to each link's point.
     fn along_tree(
         &mut self,
         environment: &mut Environment<'_>,
@@ -122,13 +122,13 @@ impl EntryList<'_, '_> {
         sums
     }
 
-    /// Q_i = ∂r_i/∂θ_i · F_i + Σ ∂r_c/∂θ_i · S_c of forces F at points r, with the pivots
-    /// r_c of the children c and the sum S of all forces on a subtree.
+    /// Computes the torques Q_i = ∂r_i/∂θ_i · F_i + Σ ∂r_c/∂θ_i · S_c of forces F at points r. r_c
+    /// are the pivots of the children c, S the sum of all forces on a subtree.
     fn torques(&mut self, environment: &mut Environment<'_>, points: Points<'_>) -> Vec<ValueId> {
         let count = points.links.len();
         let zero = self.lowering.builder.integer(0);
         let mut torques = vec![zero; count];
-        // Levers of pivots on each link, and the forces there: copies share a pivot.
+        // For each link, the levers of pivots on it and the forces there; copies share a pivot.
         let mut hanging: Vec<Vec<(Pair, Pair)>> = vec![Vec::new(); count];
         for link in (0..count).rev() {
             let mut sum = [0, 1].map(|axis| {

@@ -1,5 +1,5 @@
-//! Rebuilds expressions from a program, so that tests can compare what is
-//! emitted with what was derived, symbol by symbol.
+//! Converts values of a program back to expressions, so that tests can compare emitted code with
+//! the derivation, symbol by symbol.
 
 use crate::functions::Argument;
 
@@ -8,7 +8,7 @@ use crate::mechanics::expression::{Expr, SymbolId};
 use crate::mechanics::{Mechanics, Temporal, Trigonometric};
 use std::collections::BTreeMap;
 
-/// Expressions of a program's values in the symbols of its mechanics.
+/// Expressions of a program's values, in the symbols of the mechanics from which it was built.
 pub struct Rebuilt<'a> {
     program: &'a Program,
     mechanics: &'a Mechanics,
@@ -16,7 +16,7 @@ pub struct Rebuilt<'a> {
 }
 
 impl<'a> Rebuilt<'a> {
-    /// Prepares the way back from `program` to the symbols of `mechanics`.
+    /// Prepares the conversion from `program` to the symbols of `mechanics`.
     pub fn new(program: &'a Program, mechanics: &'a Mechanics) -> Self {
         Self {
             program,
@@ -25,14 +25,14 @@ impl<'a> Rebuilt<'a> {
         }
     }
 
-    /// A reader with symbols for elements of the arguments of link functions.
+    /// Adds symbols for elements of the arguments of link functions.
     pub fn with_symbols(self, given: BTreeMap<(Argument, usize), SymbolId>) -> Self {
         Self { given, ..self }
     }
 
-    /// The expression that a value stands for, in constants, sines and cosines
-    /// of single coordinates, velocities and momenta. Written out in full: the
-    /// size may be exponential in the depth, so this is for small scenes.
+    /// Returns the expression of a value in constants, sines and cosines of single coordinates,
+    /// velocities and momenta. It is written out in full and may have a size exponential in the
+    /// depth, so use it for small scenes only.
     pub fn value(&self, id: ValueId) -> Option<Expr> {
         Some(match &self.program.definition(id).op {
             Op::Input(argument, index) => Expr::Symbol(self.input(*argument, *index)?),
@@ -40,7 +40,7 @@ impl<'a> Rebuilt<'a> {
             Op::Number(number) => Expr::Number(number.clone()),
             Op::Sin(a) => self.trigonometric(*a, Trigonometric::Sin)?,
             Op::Cos(a) => self.trigonometric(*a, Trigonometric::Cos)?,
-            // Square roots are no rational expressions.
+            // A square root is not a rational expression.
             Op::Sqrt(_) => return None,
             Op::Neg(a) => minus(self.value(*a)?),
             Op::Add(a, b) => Expr::Sum(vec![self.value(*a)?, self.value(*b)?]),
@@ -66,13 +66,14 @@ impl<'a> Rebuilt<'a> {
             Argument::Rates => &symmetric?.velocities,
             Argument::Momenta => &symmetric?.momenta,
             Argument::Alpha => &transverse?.accelerations,
+            Argument::Actions => &self.mechanics.normal_form.as_ref()?.actions,
             Argument::Difference(sector) => &transverse?.sectors.get(sector)?.differences,
             Argument::DifferenceRate(sector) => &transverse?.sectors.get(sector)?.rates,
             Argument::SmallDifferences => {
                 return transverse?.small_symbol(index, |of| &of.differences);
             }
             Argument::SmallRates => return transverse?.small_symbol(index, |of| &of.rates),
-            // The reader knows the meaning of elements of rows.
+            // The caller supplies the symbols of elements of rows.
             Argument::Forces
             | Argument::Torques
             | Argument::SmallTorques
@@ -104,7 +105,7 @@ impl<'a> Rebuilt<'a> {
         Some(Expr::Symbol(symbol))
     }
 
-    /// The sine or cosine of a function of time.
+    /// Returns the symbol of the sine or cosine of a function of time.
     fn rotation_in_time(
         &self,
         angle: ValueId,
@@ -147,8 +148,7 @@ fn minus(expr: Expr) -> Expr {
     Expr::Product(vec![Expr::Number((-1).into()), expr])
 }
 
-/// The expression with sums of sums and products of products as one, and
-/// without terms and factors that change nothing.
+/// Flattens nested sums and products, and removes terms 0 and factors 1.
 fn flat(expr: Expr) -> Expr {
     match expr {
         Expr::Sum(parts) => {

@@ -1,11 +1,11 @@
-//! Rotations by differences of copies, as versine and sine: both are exactly
-//! zero where the differences are, and accurate where they are small.
+//! Rotations by differences of copies, as versine and sine. Both are exactly zero if the difference
+//! is zero, and accurate if it is small.
 
 use super::ValueId;
 use super::lower::{Environment, Lowering};
 use crate::mechanics::expression::SymbolId;
 
-/// 1 − cos and sin of an angle.
+/// Versine (1 − cos) and sine of an angle.
 #[derive(Clone, Copy)]
 pub(super) struct VersineSine {
     pub(super) versine: ValueId,
@@ -13,8 +13,8 @@ pub(super) struct VersineSine {
 }
 
 impl Lowering<'_> {
-    /// Returns true if a coordinate appears in a combination, so that its
-    /// versine is formed anyway.
+    /// Returns true if a coordinate occurs in a combination of coordinates, so that its versine is
+    /// computed already.
     pub(super) fn is_combined(&self, coordinate: SymbolId) -> bool {
         self.mechanics
             .combinations
@@ -23,7 +23,8 @@ impl Lowering<'_> {
             .any(|(c, _)| *c == coordinate)
     }
 
-    /// With s, c of half the angle: sin = 2 s c, vers = 2 s².
+    /// Computes versine and sine from sine s and cosine c of half the angle: sin = 2 s c, vers = 2
+    /// s².
     pub(super) fn by_half_angle(
         &mut self,
         environment: &mut Environment<'_>,
@@ -49,7 +50,7 @@ impl Lowering<'_> {
         VersineSine { versine, sine }
     }
 
-    /// The rotation by a sum of coordinates with integer weights.
+    /// Computes the rotation by a sum of coordinates with integer weights.
     pub(super) fn combination(
         &mut self,
         environment: &mut Environment<'_>,
@@ -72,6 +73,7 @@ impl Lowering<'_> {
         total
     }
 
+    /// Composes two rotations:
     /// vers(a + b) = vers a + vers b − vers a vers b + sin a sin b,
     /// sin(a + b) = sin a (1 − vers b) + sin b (1 − vers a).
     fn compose(&mut self, a: VersineSine, b: VersineSine) -> VersineSine {

@@ -1,40 +1,42 @@
-//! The rounding error of a function, measured where its code is written: in `f64` against
-//! double-double, at a few states of the model that are the same each time.
+//! Rounding error of a function, measured when its code is generated: `f64` compared with
+//! double-double numbers, at a few fixed states of the model.
 //!
-//! Both start from the same numbers of `f64`, sines and cosines and constants of the model
-//! among them: what is measured is the arithmetic, each operation rounded, none fused. Only
-//! operations that every machine rounds alike are used, so that docs are the same everywhere.
+//! Both evaluations start from the same `f64` numbers, including sines, cosines and constants of
+//! the model. The result is therefore the error of the arithmetic, with each operation rounded and
+//! none fused. Only operations that every machine rounds identically are used, so that the docs are
+//! the same everywhere.
 
 use super::wide::Wide;
 use super::{Entry, Op, Program, ValueId};
 use crate::functions::{Argument, Purpose};
 
-/// Most states at which a function is evaluated.
+/// Largest number of states at which a function is evaluated.
 const MOST_STATES: usize = 16;
 
-/// Fewer say nothing.
+/// Smallest number of states from which an error is reported.
 const FEWEST_STATES: usize = 4;
 
-/// Most values that are formed for one function, so that this takes a few milliseconds.
+/// Largest number of values computed for one function, so that the measurement takes a few
+/// milliseconds.
 const MOST_VALUES: usize = 1 << 13;
 
-/// Largest angle and largest rate of a state, in rad and in rad/s.
+/// Largest angle and largest angular velocity of a state, in rad and rad/s.
 const LARGEST: [f64; 2] = [3.0, 8.0];
 
-/// Largest tangent of half an angle whose sine and cosine are taken: of 1.97 rad.
+/// Largest tangent of half an angle, which belongs to an angle of 1.97 rad.
 const LARGEST_TANGENT: f64 = 1.5;
 
 /// A measured rounding error.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rounding {
-    /// The largest error of a result, in units in the last place of the largest result
-    /// of the same state.
+    /// Largest error of a result, in units in the last place of the largest result of the same
+    /// state.
     pub ulps: f64,
-    /// The number of states.
+    /// Number of states.
     pub states: usize,
 }
 
-/// A function made ready to be evaluated: operands are places in the list.
+/// A function prepared for evaluation; operands are indices in its list of operations.
 struct Steps {
     steps: Vec<Step>,
     outputs: Vec<usize>,
@@ -42,22 +44,22 @@ struct Steps {
 
 struct Step {
     op: Op,
-    /// Value of a number or of a constant of the model.
+    /// Value of an operation that is a number or a constant of the model.
     fixed: Option<f64>,
 }
 
-/// Values of the inputs and angles of one state.
+/// Inputs and angles of one state.
 struct Sample {
     state: u64,
-    /// Momenta of the state's own velocities, where the function takes momenta.
+    /// Momenta that belong to the state's velocities, if the function takes momenta.
     momenta: Vec<f64>,
 }
 
 impl Program {
-    /// The rounding error of a function; `None` where constants are parameters, where it is
-    /// too long, or where an argument has no size that is natural without the model: torques.
+    /// Measures the rounding error of a function. Returns `None` if constants depend on parameters,
+    /// if the function is too long, or if it takes torques, whose magnitude depends on the model.
     pub fn rounding(&self, entry: &Entry) -> Option<Rounding> {
-        // The program has no more than the first terms of recurrences.
+        // The program contains only the first terms of the recurrences.
         if entry.purpose == Purpose::TaylorCoefficients {
             return None;
         }
@@ -66,11 +68,14 @@ impl Program {
         if states < FEWEST_STATES {
             return None;
         }
-        let momenta = entry.arguments.iter().find_map(|argument| match argument {
-            Argument::AbsoluteMomenta => Some(Purpose::AbsoluteMomenta),
-            Argument::Momenta => Some(Purpose::SymmetricMomenta),
-            _ => None,
-        });
+        let of_momenta = [
+            (Argument::AbsoluteMomenta, Purpose::AbsoluteMomenta),
+            (Argument::Momenta, Purpose::SymmetricMomenta),
+        ];
+        let momenta = of_momenta
+            .into_iter()
+            .find(|(argument, _)| entry.arguments.contains(argument))
+            .map(|(_, purpose)| purpose);
         let momenta = match momenta {
             Some(purpose) => {
                 let mut entries = self.entries.iter();
@@ -129,7 +134,7 @@ impl Program {
 }
 
 impl Sample {
-    /// The outputs, rounded and in double-double.
+    /// Evaluates the outputs, rounded and in double-double numbers.
     fn evaluate(&self, function: &Steps) -> Option<(Vec<f64>, Vec<Wide>)> {
         let mut values: Vec<(f64, Wide)> = Vec::with_capacity(function.steps.len());
         for Step { op, fixed } in &function.steps {
@@ -168,7 +173,7 @@ impl Sample {
         Some(function.outputs.iter().map(|&place| values[place]).unzip())
     }
 
-    /// An element of an argument.
+    /// Returns an element of an argument.
     fn input(&self, argument: Argument, index: usize) -> Option<f64> {
         let (kind, angles) = match argument {
             Argument::Theta => (1, true),
@@ -180,15 +185,33 @@ impl Sample {
             Argument::AbsoluteMomenta | Argument::Momenta => {
                 return self.momenta.get(index).copied();
             }
-            _ => return None,
+            Argument::Forces
+            | Argument::Alpha
+            | Argument::Actions
+            | Argument::Difference(_)
+            | Argument::DifferenceRate(_)
+            | Argument::SmallDifferences
+            | Argument::SmallRates
+            | Argument::Torques
+            | Argument::SmallTorques
+            | Argument::Prescribed(_)
+            | Argument::Constants
+            | Argument::Body
+            | Argument::Motion
+            | Argument::Response
+            | Argument::Sums
+            | Argument::Elimination
+            | Argument::Carried
+            | Argument::Pivot
+            | Argument::Given(_) => return None,
         };
         let largest = LARGEST[usize::from(!angles)];
         Some(largest * self.fraction(kind, index as u64))
     }
 
-    /// Sine and cosine of an angle, both of one tangent of its half.
+    /// Computes sine and cosine of an angle from the tangent of half of it.
     fn sin_cos(&self, angle: &Op, place: ValueId) -> [f64; 2] {
-        // Of an element of an argument the same in every function.
+        // An element of an argument has the same angle in every function.
         let (kind, index) = match *angle {
             Op::Input(Argument::Theta, index) => (7, index as u64),
             Op::Input(Argument::Coordinates, index) => (8, index as u64),
@@ -199,7 +222,7 @@ impl Sample {
         [2.0 * tangent / below, (2.0 - below) / below]
     }
 
-    /// A number from −1 to 1 (SplitMix64).
+    /// Returns a pseudo-random number from −1 to 1 (SplitMix64).
     fn fraction(&self, kind: u64, index: u64) -> f64 {
         let seed = (self.state << 48) ^ (kind << 32) ^ index;
         let mut bits = seed.wrapping_add(1).wrapping_mul(0x9e37_79b9_7f4a_7c15);
@@ -240,7 +263,7 @@ mod tests {
         assert_eq!(twice.map(|twice| twice.ulps), Some(0.0));
     }
 
-    /// (x + 1000) − 1000 keeps as many digits less as x has.
+    /// Checks that (x + 1000) − 1000, which loses digits, has a correspondingly larger error.
     #[test]
     fn what_cancels_shows() {
         let difference = rounding(|builder| {

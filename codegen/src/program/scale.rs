@@ -1,18 +1,17 @@
-//! A common factor of constants that an equation is free to choose.
+//! Choice of a common factor for the constants of an equation.
 //!
-//! A rounded constant is wrong by the same amount in every step of a long
-//! motion: these errors add up, where those of the steps cancel each other. A
-//! factor common to all constants changes nothing but how they round.
+//! A rounded constant has the same error in every step of a long motion. Such errors add up,
+//! whereas those of single steps average out. A common factor of all constants changes only their
+//! rounding.
 
 use crate::exact::Rational;
 
-/// Factors that are tried. With n constants, the best of N factors makes the errors
-/// about N^(1/n) times smaller.
+/// Number of factors that are tried. With n constants, the best of N factors reduces the errors by
+/// a factor of about N^(1/n).
 const FACTORS: i64 = 1 << 18;
 
-/// The factor, a fraction of few digits, that brings all of these constants, and the
-/// reciprocals of those that are divided by, nearest to numbers of `f64`. None of
-/// them is zero.
+/// Returns the factor, a fraction with few digits, for which these constants, and the reciprocals
+/// of those used as divisors, are closest to `f64` numbers. No constant may be zero.
 pub(super) fn factor(constants: &[Rational], divisors: &[Rational]) -> Option<Rational> {
     let parts = |numbers: &[Rational]| -> Vec<(f64, f64)> {
         let mut parts: Vec<_> = numbers.iter().map(Rational::to_parts).collect();
@@ -26,7 +25,7 @@ pub(super) fn factor(constants: &[Rational], divisors: &[Rational]) -> Option<Ra
         let times = |&constant| scaled(constant, factor as f64);
         let products = constants.iter().map(|constant| relative(times(constant)));
         let quotients = divisors.iter().map(|divisor| reciprocal(times(divisor)));
-        // Most are out after a constant or two.
+        // Most factors are rejected after a constant or two.
         let mut squares = 0.0;
         for error in products.chain(quotients) {
             squares += error * error;
@@ -41,8 +40,8 @@ pub(super) fn factor(constants: &[Rational], divisors: &[Rational]) -> Option<Ra
     Rational::from_ratio(best.1, FACTORS)
 }
 
-/// Returns the largest number of which all of these are whole multiples, zeros aside, if
-/// they have one whose multiples `f64` holds exactly.
+/// Returns the largest number of which all nonzero `lengths` are integer multiples; `None` if `f64`
+/// cannot represent the multiples exactly.
 pub(super) fn common_measure(lengths: &[Rational]) -> Option<Rational> {
     let whole = |text: String| text.parse::<i64>().ok();
     let mut measure: Option<(i64, i64)> = None;
@@ -68,7 +67,7 @@ pub(super) fn common_measure(lengths: &[Rational]) -> Option<Rational> {
     lengths.iter().all(exact).then_some(measure)
 }
 
-/// Greatest common divisor of two positive numbers.
+/// Returns the greatest common divisor of two positive numbers.
 fn divisor(mut a: i64, mut b: i64) -> i64 {
     while b != 0 {
         (a, b) = (b, a % b);
@@ -76,19 +75,19 @@ fn divisor(mut a: i64, mut b: i64) -> i64 {
     a
 }
 
-/// A constant in two parts times a whole number of few digits.
+/// Multiplies a constant in two parts by a whole number of few digits.
 fn scaled((high, low): (f64, f64), factor: f64) -> (f64, f64) {
     let product = high * factor;
     let rest = high.mul_add(factor, -product) + low * factor;
     (product, rest)
 }
 
-/// Rounding error of a number in two parts, relative to its size.
+/// Returns the relative rounding error of a number in two parts.
 fn relative((high, low): (f64, f64)) -> f64 {
     low / high
 }
 
-/// Rounding error of its reciprocal, relative to the size of that.
+/// Returns the relative rounding error of the reciprocal of a number in two parts.
 fn reciprocal((high, low): (f64, f64)) -> f64 {
     let reciprocal = 1.0 / high;
     high.mul_add(reciprocal, -1.0) + low * reciprocal
@@ -99,7 +98,7 @@ mod tests {
     use super::{common_measure, factor};
     use crate::exact::Rational;
 
-    /// Relative rounding error of a number, by exact arithmetic.
+    /// Returns the relative rounding error of a number, by exact arithmetic.
     fn rounding(number: &Rational) -> f64 {
         let (high, low) = number.to_parts();
         (low / high).abs()
@@ -119,7 +118,7 @@ mod tests {
         });
         let products = constants.iter().map(|c| c.clone() * factor.clone());
         for number in products.chain(reciprocals) {
-            // Rounding to the nearest errs by up to 1.1e-16, 3e-17 in the mean.
+            // Rounding to the nearest has an error of up to 1.1e-16, and 3e-17 on average.
             assert!(rounding(&number) < 1.2e-17, "{}", rounding(&number));
         }
     }

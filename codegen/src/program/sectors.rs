@@ -1,5 +1,6 @@
-//! Entry points that work on means and differences: the motion of nested trees
-//! in symmetric coordinates, and the budgets of sectors.
+//! Entry points that compute on means and differences of copies: the motion of nested copies in
+//! symmetric coordinates, and the energy budgets of sectors (sets of symmetric coordinates: all
+//! means, or one difference between copies).
 
 use super::ValueId;
 use super::entry_list::EntryList;
@@ -13,8 +14,8 @@ use crate::mechanics::{Mechanics, OrbitMechanics};
 use crate::scene::{BudgetRequest, Scene};
 
 impl EntryList<'_, '_> {
-    /// Motion and momenta in symmetric coordinates, as [`EntryList::symmetric`]
-    /// gives them for flat trees.
+    /// Adds motion and momenta in symmetric coordinates, the counterpart of
+    /// [`EntryList::symmetric`] for nested copies.
     pub(super) fn symmetric_of_nested(&mut self, scene: &Scene, sectors: &OrbitMechanics) {
         let mechanics = self.lowering.mechanics;
         let values = values(self.lowering, sectors);
@@ -64,8 +65,8 @@ impl EntryList<'_, '_> {
         self.push(Purpose::SymmetricVelocities, velocities);
     }
 
-    /// Budgets of the sectors, from absolute angles and, where those are asked
-    /// for, from symmetric coordinates.
+    /// Adds the budgets of the sectors from absolute angles, and from symmetric coordinates if
+    /// those are requested.
     pub(super) fn budgets(
         &mut self,
         scene: &Scene,
@@ -132,7 +133,7 @@ impl EntryList<'_, '_> {
         }
     }
 
-    /// W of every sector through an order in all differences.
+    /// Adds W of every sector, truncated at an order in all differences.
     fn truncated_transfers(
         &mut self,
         scene: &Scene,
@@ -157,7 +158,7 @@ impl EntryList<'_, '_> {
     }
 }
 
-/// One value for each symmetric coordinate.
+/// Returns one value per symmetric coordinate.
 pub(super) fn by_coordinate<'b>(
     tree: &mut SymmetricTree<'b>,
     mechanics: &Mechanics,
@@ -175,7 +176,7 @@ pub(super) fn by_coordinate<'b>(
         .collect()
 }
 
-/// Energies, then transfers, then powers.
+/// Returns energies, then transfers, then powers.
 fn flattened(tree: &mut SymmetricTree<'_>, shares: &[Share]) -> Vec<ValueId> {
     let parts: [fn(&Share) -> &TruncatedSeries; 3] = [
         |share| &share.energy,
@@ -189,9 +190,9 @@ fn flattened(tree: &mut SymmetricTree<'_>, shares: &[Share]) -> Vec<ValueId> {
     outputs
 }
 
-/// Kinetic and potential part of W, sector by sector. Where angles alone count,
-/// K is meant through the order kept and differentiated then, so that its slope
-/// in the differences has one order less.
+/// Returns kinetic and potential part of W, sector by sector. If only angles count as small, K is
+/// truncated at the given order and then differentiated, so that its slope in the differences has
+/// one order less.
 fn transfers(
     tree: &mut SymmetricTree<'_>,
     values: &ConstantValues,
@@ -214,8 +215,8 @@ fn transfers(
     outputs
 }
 
-/// Shares of the sectors in the energies that are taken from momenta, as far as they are asked
-/// for.
+/// Returns the requested shares (energy, transfer and power of each sector) of the forms whose
+/// energies depend on momenta.
 fn momentum_shares(
     tree: &mut SymmetricTree<'_>,
     request: &BudgetRequest,
@@ -240,8 +241,8 @@ fn momentum_shares(
     found
 }
 
-/// Shares of the sectors in the energies that are taken from velocities, as far as they are
-/// asked for.
+/// Returns the requested shares (energy, transfer and power of each sector) of the forms whose
+/// energies depend on velocities.
 fn velocity_shares(
     tree: &mut SymmetricTree<'_>,
     request: &BudgetRequest,

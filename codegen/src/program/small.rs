@@ -1,4 +1,4 @@
-//! Entry points of small differences that act back on the motion that they are beside.
+//! Entry points for small differences that act back on the in-phase motion.
 
 use super::ValueId;
 use super::builder::Builder;
@@ -9,8 +9,8 @@ use crate::mechanics::{Mechanics, SmallMechanics, TransverseFormulas, Transverse
 use crate::scene::Scene;
 
 impl EntryList<'_, '_> {
-    /// One linear system for the accelerations of angles and differences, without torques
-    /// from outside and under them where they are asked for, and the energy.
+    /// Adds a linear system for the accelerations of angles and differences, without external
+    /// torques and, if requested, with them; and the energy.
     pub(super) fn small(
         &mut self,
         scene: &Scene,
@@ -71,8 +71,8 @@ impl EntryList<'_, '_> {
         self.push(Purpose::SmallEnergy, vec![energy]);
     }
 
-    /// The environment of the motion, with the small differences of a sector, which stand from
-    /// `offset` on among those of all.
+    /// Returns the environment of the motion with the small differences of one sector, which begin
+    /// at `offset` in the list of all differences.
     fn with_differences<'e>(
         &mut self,
         motion: &Environment<'e>,
@@ -93,7 +93,8 @@ impl EntryList<'_, '_> {
     }
 }
 
-/// Torques from outside on links and differences, less what acts otherwise.
+/// Returns the external torques on links and differences, minus the residuals of the equations of
+/// motion.
 fn under_torques(builder: &mut Builder, residual: &[ValueId], links: usize) -> Vec<ValueId> {
     let right = residual.iter().enumerate().map(|(index, &value)| {
         let torque = match index.checked_sub(links) {

@@ -1,17 +1,17 @@
-//! Linear systems with a symmetric positive definite matrix, written out by
-//! elimination from the last unknown to the first: M = Lᵀ D L (Featherstone,
-//! Rigid Body Dynamics Algorithms, 2008, §6.5). On a tree numbered parent
-//! before child this meets no fill-in; on other matrices fill is followed.
+//! Linear systems with a symmetric positive definite matrix, written out by elimination from the
+//! last unknown to the first: M = Lᵀ D L (Featherstone, Rigid Body Dynamics Algorithms, 2008,
+//! §6.5). On a tree whose parents come before their children there is no fill-in; for other
+//! matrices fill-in is included.
 
 use super::ValueId;
 use super::builder::Builder;
 use std::collections::BTreeMap;
 
-/// Lower triangle of a symmetric matrix of values, sparse.
+/// Lower triangle of a sparse symmetric matrix of values.
 pub(super) type Matrix = BTreeMap<(usize, usize), ValueId>;
 
 impl Builder {
-    /// x with M x = b. `names` name the unknowns; the reduced inertias d and the
+    /// Solves M x = b for x. `names` are the names of the unknowns; the reduced inertias d and the
     /// multipliers l of the elimination are named after them.
     pub(super) fn solve(
         &mut self,

@@ -1,9 +1,8 @@
-//! The program behind the Taylor coefficients of the motion.
+//! The program for Taylor coefficients of the motion.
 //!
-//! The recurrences of the runtime know the equation of motion but for its
-//! constants: those of the articulated recursion, from which the mass matrix and its
-//! centrifugal terms follow, and gravity. What else stands in it is a program of its
-//! own.
+//! The recurrences of the runtime contain the equation of motion except for its constants: those of
+//! the articulated recursion, which determine the mass matrix and its centrifugal terms, and
+//! gravity. All other terms are a separate program.
 
 use super::entry_list::EntryList;
 use super::lower::Environment;
@@ -14,29 +13,28 @@ use crate::mechanics::expression::{Expr, Role, SymbolId};
 use crate::mechanics::{Frame, Mechanics, Trigonometric};
 use crate::scene::{LinkId, Scene};
 
-/// The outputs of the entry; links in their order.
+/// Outputs of the entry point; each list has one value per link.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct TaylorOutputs {
-    /// sin θ.
+    /// Sines of the angles.
     pub sines: Vec<ValueId>,
-    /// cos θ.
+    /// Cosines of the angles.
     pub cosines: Vec<ValueId>,
     /// Diagonal of the mass matrix.
     pub inertias: Vec<ValueId>,
-    /// First moment of the mass that the link carries, along and across; zero of the
-    /// root, whose pivot it does not move.
+    /// First moment of the mass that the link carries, along and across the link; zero for the
+    /// root, whose pivot does not move with it.
     pub moments: [Vec<ValueId>; 2],
-    /// Where the link hangs on its parent, along and across; zero of the root.
+    /// Position of the link's pivot on its parent, along and across; zero for the root.
     pub attachments: [Vec<ValueId>; 2],
-    /// Torque of gravity by the sine and by the cosine of the angle.
+    /// Coefficients of gravity's torque: of the sine and of the cosine of the angle.
     pub weights: [Vec<ValueId>; 2],
-    /// The rest of the equation of motion.
+    /// All other terms of the equation of motion.
     pub bias: Vec<ValueId>,
 }
 
 impl TaylorOutputs {
-    /// The outputs of the entry taken apart: as many of each kind as there are
-    /// `links`, then the rest.
+    /// Splits the outputs of the entry point: `links` values of each kind, then the rest.
     pub(crate) fn of(outputs: &[ValueId], links: usize) -> Self {
         let mut lists = outputs.chunks(links);
         let mut next = || lists.next().unwrap_or_default().to_vec();
@@ -51,7 +49,7 @@ impl TaylorOutputs {
         }
     }
 
-    /// Returns what an expansion starts from: sines, then cosines.
+    /// Returns the values with which an expansion starts: sines, then cosines.
     pub(crate) fn roots(&self) -> Vec<ValueId> {
         [&self.sines, &self.cosines]
             .into_iter()
@@ -134,7 +132,7 @@ impl EntryList<'_, '_> {
         self.push(Purpose::TaylorCoefficients, list);
     }
 
-    /// The sines and cosines of all angles, with their names.
+    /// Returns the sines and cosines of all angles, with names.
     fn sines_and_cosines(&mut self, frame: &Frame) -> (Vec<ValueId>, Vec<ValueId>) {
         let names = self.lowering.coordinate_names(frame);
         let builder = &mut self.lowering.builder;
@@ -149,11 +147,11 @@ impl EntryList<'_, '_> {
         named.unzip()
     }
 
-    /// Chooses units of length and of mass, which change nothing but rounding: one
-    /// rounded constant less is one error less in long motions. Where all constants are
-    /// known, all distances are whole numbers of the unit of length, and the unit of mass
-    /// is the one with which the others round least; else the distance from which the last
-    /// link hangs is one, and its moment of inertia.
+    /// Chooses units of length and of mass, which change only the rounding: one rounded constant
+    /// less is one error less in long motions. If all constants are known, the unit of length makes
+    /// all distances whole numbers, and the unit of mass is the one with the smallest rounding
+    /// errors of the others. Otherwise the pivot distance of the last link is 1, and so is its
+    /// moment of inertia.
     fn choose_units(&mut self, scene: &Scene, outputs: &mut TaylorOutputs) {
         self.choose_length(scene, outputs);
         let factor = self.factor(scene, outputs);
@@ -171,7 +169,7 @@ impl EntryList<'_, '_> {
             unreachable!("a tree has links");
         };
         let factor = factor.map(|factor| {
-            // Products with it are called `inertia_parent_scaled`.
+            // Names products with it `inertia_parent_scaled`.
             let number = builder.number(factor);
             builder.called(number, "scaled")
         });
@@ -184,8 +182,8 @@ impl EntryList<'_, '_> {
         }
     }
 
-    /// Measures lengths in their greatest common measure, if they have one; else in that
-    /// from which the last link hangs, if there is one.
+    /// Measures lengths in their greatest common measure if they have one, else in the pivot
+    /// distance of the last link if there is one.
     fn choose_length(&mut self, scene: &Scene, outputs: &mut TaylorOutputs) {
         let builder = &mut self.lowering.builder;
         let lengths = outputs.attachments.iter().flatten();
@@ -216,7 +214,7 @@ impl EntryList<'_, '_> {
         }
     }
 
-    /// The factor for constants that are all known.
+    /// Returns the factor for constants that are all known.
     fn factor(&mut self, scene: &Scene, outputs: &TaylorOutputs) -> Option<Rational> {
         let builder = &mut self.lowering.builder;
         let exact = |id: &ValueId| builder.exact(*id);
@@ -233,15 +231,15 @@ impl EntryList<'_, '_> {
     }
 }
 
-/// The function of an angle that multiplies a constant.
+/// Function of the angle in a term of gravity.
 #[derive(Clone, Copy)]
 enum GravityTerm {
     Sine,
     Cosine,
 }
 
-/// Returns the function and the constant of a term c sin θ_i or c cos θ_i of the
-/// equation of link i.
+/// Returns the function and the constant of a term c sin θ_i or c cos θ_i in the equation of link
+/// i.
 fn gravity(
     mechanics: &Mechanics,
     frame: &Frame,
@@ -283,8 +281,8 @@ fn gravity(
     Some((found?, constant))
 }
 
-/// Returns true if a term has the square of a velocity: the recurrences form these
-/// with the mass matrix, of whose derivatives they are made.
+/// Returns true if a term contains the square of a velocity. The recurrences compute these terms
+/// from the derivatives of the mass matrix.
 fn is_centrifugal(mechanics: &Mechanics, term: &Expr) -> bool {
     term.factors().iter().any(|factor| match factor {
         Expr::Power(base, 2) => match base.as_ref() {

@@ -1,4 +1,4 @@
-//! Terms of sums: in which order the factors of a product are multiplied.
+//! Terms of sums: order in which the factors of a product are multiplied.
 
 use super::ValueId;
 use super::lower::{Environment, Lowering};
@@ -6,8 +6,8 @@ use crate::exact::Rational;
 use crate::mechanics::expression::{Expr, Role, SymbolId};
 
 impl Lowering<'_> {
-    /// A term's sign and size: constants first, then what is multiplied, then
-    /// one quotient.
+    /// Returns a term's sign and magnitude: constants first, then the other factors, then one
+    /// quotient.
     pub(super) fn term(
         &mut self,
         environment: &mut Environment<'_>,
@@ -69,8 +69,8 @@ impl Lowering<'_> {
         (negative, value)
     }
 
-    /// ±μ sin ω² as (μ sin) · ω²: a pair of links shares the first factor, all
-    /// pairs of a link the second.
+    /// Builds ±μ sin ω² as (μ sin) · ω²: a pair of links shares the first factor, all pairs of a
+    /// link the second.
     fn centrifugal(
         &mut self,
         environment: &mut Environment<'_>,

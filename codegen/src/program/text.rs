@@ -1,4 +1,4 @@
-//! A program as text, for `cargo branched-pendulum stage program` and for snapshots.
+//! Prints a program, for `cargo branched-pendulum stage program` and for snapshots.
 
 use crate::functions::Argument;
 
@@ -21,7 +21,7 @@ fn value(id: ValueId) -> String {
     format!("v{}", id.0)
 }
 
-/// The constants of the strips, table by table.
+/// Writes the constants of the links, table by table.
 fn write_tables(f: &mut fmt::Formatter<'_>, strips: &LoopTree) -> fmt::Result {
     let tables = [
         ("strips", &strips.columns),
@@ -44,7 +44,7 @@ fn write_tables(f: &mut fmt::Formatter<'_>, strips: &LoopTree) -> fmt::Result {
     Ok(())
 }
 
-/// The constants of what acts between links, with the pairs of these.
+/// Writes the constants of spring-dampers between links, with their pairs of links.
 fn write_spring_dampers(f: &mut fmt::Formatter<'_>, strips: &LoopTree) -> fmt::Result {
     for own in &strips.spring_dampers {
         let constants = own.named().map(|(name, id)| format!("{name} k{}", id.0));

@@ -1,4 +1,4 @@
-//! The entry points of the energy transfer into one difference.
+//! Entry points for the energy transfer into one difference.
 
 use super::ValueId;
 use super::entry_list::EntryList;
@@ -51,7 +51,7 @@ impl EntryList<'_, '_> {
         self.antiphase_powers(scene, number, transfer, EntryState::Rates, &mut motion);
     }
 
-    /// The powers on H_d of what is not conservative.
+    /// Adds the functions for the powers of friction and drive on the energy H_d of a difference.
     fn antiphase_powers(
         &mut self,
         scene: &Scene,
@@ -86,7 +86,8 @@ impl EntryList<'_, '_> {
         }
     }
 
-    /// W by what the mean tree does and what the mismatch of the copies adds.
+    /// Adds the functions for W, split into the contribution of the mean tree (the tree with mean
+    /// constants) and that of the copies' mismatches.
     fn split(
         &mut self,
         number: usize,
@@ -95,7 +96,7 @@ impl EntryList<'_, '_> {
         environment: &mut Environment<'_>,
     ) {
         let forcing = self.parts(environment, forcing);
-        // At the same momenta the mean tree has other velocities.
+        // At the same momenta the mean tree has different velocities.
         let coordinates = environment.coordinates;
         let mut mean = Environment::new(&mean_tree.frame, coordinates, None, environment.momenta);
         if environment.momenta.is_none() {

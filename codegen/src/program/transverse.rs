@@ -1,4 +1,4 @@
-//! Entry points of small differences between copies that move in phase.
+//! Entry points for small differences between copies that move in phase.
 
 use super::Entry;
 use super::entry_list::EntryList;

@@ -1,4 +1,4 @@
-//! Checks the shape of a program. Later stages rely on it; a fault is a bug.
+//! Checks the invariants of a program. Later stages rely on them; a violation is a bug.
 
 use crate::functions::ResultShape;
 
@@ -6,15 +6,15 @@ use super::{ConstantOp, Program};
 use crate::exact::Rational;
 use std::fmt;
 
-/// A broken invariant of a program.
+/// A violation of an invariant of a program.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Fault {
-    /// A value uses one that is not earlier.
+    /// A value uses a value that does not come before it.
     Order {
-        /// Index of the definition.
+        /// Index of the invalid definition.
         definition: usize,
     },
-    /// An entry point's outputs do not fill its shape.
+    /// The number of an entry point's outputs does not match its result type.
     Outputs {
         /// Name of the entry point.
         entry: String,
@@ -51,8 +51,7 @@ fn is_unrepresentable(number: &Rational) -> bool {
 }
 
 impl super::Setup {
-    /// Returns true if every constant has a value that an `f64` can hold, where
-    /// no parameter is involved.
+    /// Returns true if every constant without parameters has a value that an `f64` can hold.
     pub(super) fn is_representable(&self) -> bool {
         self.definitions.iter().all(|definition| {
             let exact = definition.exact.as_ref();
@@ -62,8 +61,8 @@ impl super::Setup {
 }
 
 impl Program {
-    /// The name of a constant, or the number, that some entry point needs and
-    /// that no `f64` can hold: rounded, it would be infinite, or zero without being zero.
+    /// Returns the name of a constant, or a description of a number, that some entry point needs
+    /// and that no `f64` can hold: rounded, it would be infinite, or zero although it is not zero.
     pub fn unrepresentable_constant(&self) -> Option<&str> {
         let values = self
             .entries
@@ -80,8 +79,8 @@ impl Program {
             }
         }
         constants.extend(self.strips.iter().flat_map(super::LoopTree::all_constants));
-        // The model stores the named constants behind a product too. Whole ones come before
-        // their parts: names say more.
+        // The model also stores the named constants that a product uses. Products are checked
+        // before their factors, because their names say more.
         let stored = self.setup.behind(constants, |_| true);
         stored.into_iter().rev().find_map(|id| {
             let definition = self.setup.get(id);
@@ -94,8 +93,8 @@ impl Program {
         })
     }
 
-    /// Checks that definitions are in order, that entry points receive what
-    /// they read and that outputs fill their shapes.
+    /// Checks that definitions are in order, that entry points receive the arguments that they
+    /// read, and that outputs match their result types.
     ///
     /// # Errors
     /// The first [`Fault`] found.

@@ -1,9 +1,9 @@
-//! Numbers of 106 bits, for the measure of rounding errors: sums of two `f64` that do not
-//! overlap (T. J. Dekker, Numerische Mathematik 18 (1971) 224).
+//! Numbers with 106 bits, for measuring rounding errors: sums of two `f64` that do not overlap (T.
+//! J. Dekker, Numerische Mathematik 18 (1971) 224).
 
 use std::ops::{Add, Div, Mul, Neg};
 
-/// A sum of two numbers, the second at most half a unit in the last place of the first.
+/// A sum of two numbers; the second is at most half a unit in the last place of the first.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Wide {
     pub(super) high: f64,
@@ -11,7 +11,7 @@ pub(super) struct Wide {
 }
 
 impl Wide {
-    /// high + low exactly, whichever is larger.
+    /// Returns a + b exactly, for any order of magnitude.
     fn sum(a: f64, b: f64) -> Self {
         let high = a + b;
         let part = high - a;
@@ -19,9 +19,9 @@ impl Wide {
         Self { high, low }
     }
 
-    /// a · b exactly.
+    /// Returns a · b exactly.
     fn product(a: f64, b: f64) -> Self {
-        /// Halves of 26 bits.
+        /// Splits a number into two parts of 26 bits.
         fn split(value: f64) -> (f64, f64) {
             let scaled = value * 134_217_729.0;
             let high = scaled - (scaled - value);
@@ -33,12 +33,12 @@ impl Wide {
         Self { high, low }
     }
 
-    /// The distance of a number of `f64`.
+    /// Returns the distance between the number and an `f64`.
     pub(super) fn distance(self, rounded: f64) -> f64 {
         (self + Self::from(-rounded)).high.abs()
     }
 
-    /// The square root of a number that is not negative.
+    /// Returns the square root of a non-negative number.
     pub(super) fn sqrt(self) -> Self {
         let root = self.high.sqrt();
         if root == 0.0 {
@@ -106,7 +106,7 @@ impl Div for Wide {
 mod tests {
     use super::Wide;
 
-    /// Of 1/3 three times one third is 1 to 2⁻¹⁰⁴, of √2 the square is 2.
+    /// Checks that three times 1/3 is 1 to within 2⁻¹⁰⁴, and that the square of √2 is 2.
     #[test]
     fn quotients_and_roots_have_both_halves() {
         let third = Wide::from(1.0) / Wide::from(3.0);
@@ -115,12 +115,12 @@ mod tests {
         assert!((third * Wide::from(3.0)).distance(1.0) <= bits);
         let root = Wide::from(2.0).sqrt();
         assert!((root * root).distance(2.0) <= 4.0 * bits);
-        // What one half alone would leave.
+        // Error that a single `f64` would leave.
         let half = Wide::from(root.high);
         assert!((half * half).distance(2.0) > 1e-17);
     }
 
-    /// Parts far below the sum are not lost.
+    /// Checks that parts far below the sum are not lost.
     #[test]
     fn sums_keep_small_parts() {
         let small = 2.0_f64.powi(-80);

@@ -1,8 +1,7 @@
-//! Collected errors of a description, each at its place in the source.
+//! Collected errors of a description, each with its span in the source.
 //!
-//! Every stage of the front end adds to one [`Faults`] and goes on as far as it
-//! can, so that a user sees all mistakes at once. What can be said is listed in
-//! [`Message`].
+//! Every stage of the front end adds its errors to one [`Faults`] and continues after an error, so
+//! that a user sees all mistakes at once. The messages are listed in [`Message`].
 
 mod message;
 mod nearest;
@@ -20,33 +19,57 @@ pub use message::{
 pub use nearest::nearest;
 pub use settings::SceneSetting;
 
-/// One error and its place.
+/// One error and its span.
 #[derive(Debug, Clone)]
 pub struct Diagnostic {
     /// The tokens that are wrong.
     pub span: Span,
-    /// Message about them.
+    /// Message about these tokens.
     pub message: Message,
 }
 
 impl Diagnostic {
-    /// An error at `span`.
+    /// Creates an error at `span`.
     pub fn new(span: Span, message: impl Into<Message>) -> Self {
         let message = message.into();
         Self { span, message }
     }
 }
 
-/// All errors found so far, in the order of finding.
+/// Names that links, parameters and observables may have.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub enum NameRule {
+    /// Snake-case names, which become part of names in the emitted code.
+    #[default]
+    SnakeCase,
+    /// Any letters, digits and underscores, as in `I_2` and `L`: no code is emitted.
+    Free,
+}
+
+/// All errors found so far, in the order in which they were found.
 #[derive(Debug, Clone, Default)]
 pub struct Faults {
     diagnostics: Vec<Diagnostic>,
+    names: NameRule,
 }
 
 impl Faults {
-    /// An empty report.
+    /// Creates an empty list of errors.
     pub fn new() -> Self {
         Self::default()
+    }
+
+    /// Creates an empty list of errors, for a description whose names follow this rule.
+    pub fn with_names(names: NameRule) -> Self {
+        Self {
+            diagnostics: Vec::new(),
+            names,
+        }
+    }
+
+    /// Returns the rule that names follow.
+    pub fn names(&self) -> NameRule {
+        self.names
     }
 
     /// Adds an error.
@@ -59,33 +82,33 @@ impl Faults {
         self.diagnostics.push(diagnostic);
     }
 
-    /// Returns true if nothing was wrong.
+    /// Returns true if there are no errors.
     pub fn is_empty(&self) -> bool {
         self.diagnostics.is_empty()
     }
 
-    /// The errors, in the order of finding.
+    /// Returns the errors, in the order in which they were found.
     pub fn diagnostics(&self) -> &[Diagnostic] {
         &self.diagnostics
     }
 
-    /// One `compile_error!` for each error, at its place.
+    /// Returns one `compile_error!` per error, at the error's span.
     pub fn to_compile_errors(&self) -> TokenStream {
         self.diagnostics
             .iter()
             .map(|Diagnostic { span, message }| {
                 let Problem { text, label, hint } = message.problem();
-                // The compiler shows one text only, at the span.
+                // `compile_error!` takes one text only.
                 let text = format!("{text}: {label}\nhelp: {hint}");
                 quote_spanned!(*span=> ::core::compile_error! { #text })
             })
             .collect()
     }
 
-    /// The errors as text in the manner of the compiler, in the order of the
-    /// source: message, line and column, the line with the wrong tokens marked,
-    /// and what to write instead. `source` is the text that the tokens were
-    /// read from. Long lines are cut, and of very many errors the first are shown.
+    /// Formats the errors in the manner of the Rust compiler, in the order of the source: message,
+    /// line and column, the line with the wrong tokens marked, and what to write instead. `source`
+    /// is the text that the tokens were read from. Long lines are shortened, and of
+    /// very many errors only the first are shown.
     pub fn render(&self, source: &str) -> String {
         let mut ordered: Vec<&Diagnostic> = self.diagnostics.iter().collect();
         ordered.sort_by_key(|diagnostic| {
@@ -108,14 +131,14 @@ impl Faults {
     }
 }
 
-/// Most errors that are shown as text.
+/// Largest number of errors that are shown as text.
 const MOST_SHOWN: usize = 100;
 
-/// Longest part of a line that is shown, and how much of it stands before the error.
+/// Largest number of characters of a source line that are shown, and of those before the error.
 const LONGEST_LINE: usize = 120;
 const BEFORE: usize = 60;
 
-/// The part of a long line about a column, and the column in it.
+/// Returns the part of a long line around `column`, and the column within that part.
 fn excerpt(line: &str, column: usize) -> (String, usize) {
     if line.chars().nth(LONGEST_LINE).is_none() {
         return (line.to_owned(), column);
@@ -127,7 +150,7 @@ fn excerpt(line: &str, column: usize) -> (String, usize) {
     (part, column - start + lead.chars().count())
 }
 
-/// Appends one error to `text`.
+/// Appends the text of one error to `text`.
 fn render_one(diagnostic: &Diagnostic, source: &str, text: &mut String) {
     let Diagnostic { span, message } = diagnostic;
     let Problem {

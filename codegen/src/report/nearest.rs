@@ -1,8 +1,8 @@
 //! Suggestions for misspelt names.
 
-/// The one of `known` that needs the fewest changed, missing, added or swapped
-/// letters to become `name`; `None` if all need more than a third of its
-/// letters. Time O(letters² · known).
+/// Returns the element of `known` that needs the fewest changed, missing, added or swapped letters
+/// to become `name`, or `None` if all need more than a third of its letters. Time O(letters² ·
+/// known).
 pub fn nearest<'a>(name: &str, known: &[&'a str]) -> Option<&'a str> {
     let longest = 1 + name.chars().count() / 3;
     known

@@ -1,13 +1,13 @@
-//! The settings of a description, by name.
+//! Settings of a description, by name.
 
 use super::nearest::nearest;
 
-/// A member of a description that is no link.
+/// A member of a description that is not a link.
 #[derive(Debug, PartialEq, Eq)]
 pub struct SceneSetting {
     /// Name of the setting.
     pub name: &'static str,
-    /// How one writes it.
+    /// Example of its syntax.
     pub example: &'static str,
 }
 
@@ -33,13 +33,13 @@ impl SceneSetting {
         Self { name, example }
     }
 
-    /// The setting of that name.
+    /// Returns the setting with the given name.
     pub fn named(name: &str) -> Option<&'static Self> {
         Self::ALL.iter().find(|setting| setting.name == name)
     }
 
-    /// The setting that a misspelt name probably means. One letter in three may be wrong:
-    /// most names of links are short too.
+    /// Returns the setting that a misspelt name probably means. At most one letter in three may
+    /// differ, because most names of links are as short as those of settings.
     pub fn nearest(name: &str) -> Option<&'static Self> {
         let names: Vec<&str> = Self::ALL.iter().map(|setting| setting.name).collect();
         let most = name.chars().count() / 3;
@@ -48,13 +48,13 @@ impl SceneSetting {
             .and_then(Self::named)
     }
 
-    /// Returns true if parentheses follow its name, false for `=`.
+    /// Returns true if parentheses follow the name, and false if `=` does.
     pub fn in_parentheses(&self) -> bool {
         let behind = self.example.strip_prefix(self.name);
         behind.is_some_and(|behind| behind.starts_with('('))
     }
 
-    /// The mark behind its name.
+    /// Returns the punctuation that follows the name, `(` or `=`.
     pub(super) fn mark(&self) -> &'static str {
         match self.in_parentheses() {
             true => "(",
@@ -62,7 +62,7 @@ impl SceneSetting {
         }
     }
 
-    /// All of them, as they are written.
+    /// Lists all settings with their punctuation.
     pub(super) fn listed() -> String {
         let forms = Self::ALL.iter().map(|setting| {
             let name = setting.name;

@@ -1,8 +1,8 @@
-//! Bodies by shape.
+//! Rigid bodies of links, computed from their shape and its dimensions.
 //!
-//! A new shape is one entry of [`SHAPES`] and one function. Every formula is
-//! homogeneous: mass × length² for an inertia, so that a generation rule can
-//! scale the finished body.
+//! A new shape needs one entry of [`SHAPES`] and one function. Every formula is homogeneous: if all
+//! masses are multiplied by a and all lengths by b, an inertia is multiplied by a b². A generation
+//! rule can therefore scale the finished body.
 
 use super::values::unrepresentable;
 use super::{Offset, Quantity, Sign};
@@ -10,21 +10,23 @@ use crate::description::Node;
 use crate::exact::ExactError;
 use crate::report::Faults;
 
-/// A link without its place in the tree.
+/// Body of a link, independent of its position in the tree.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Body {
-    /// kg
+    /// Mass, in kg.
     pub(super) mass: Quantity,
-    /// About the centre of mass, kg m².
+    /// Moment of inertia about the centre of mass, in kg m².
     pub(super) inertia: Quantity,
-    /// Centre of mass, from the pivot.
+    /// Centre of mass, relative to the pivot.
     pub(super) com: Offset,
-    /// Attachment of the children, from the pivot, unless they name their own.
+    /// Point from which the children hang, relative to the pivot, unless a child specifies another
+    /// one.
     pub(super) joint: Option<Offset>,
 }
 
 impl Body {
-    /// Checks that its numbers can be rounded to `f64`; reports one that cannot.
+    /// Checks that all numbers of the body fit an `f64`. Reports the first that does not, and
+    /// returns false.
     pub(super) fn accept(&self, node: &Node, report: &mut Faults) -> bool {
         let Self {
             mass,
@@ -34,7 +36,7 @@ impl Body {
         } = self;
         let points = [Some(com), joint.as_ref()].into_iter().flatten();
         let parts = points.flat_map(|Offset { along, lateral }| [along, lateral]);
-        // One message for a body is enough.
+        // Stop at the first: one message per body is enough.
         [mass, inertia].into_iter().chain(parts).all(|part| {
             let fault = unrepresentable(part);
             let fits = fault.is_none();
@@ -46,28 +48,28 @@ impl Body {
     }
 }
 
-/// A shape, and how its body follows from its dimensions.
+/// A shape, and the function that computes its body from its dimensions.
 pub(super) struct BodyShape {
-    /// Word behind the colon.
+    /// Word after the colon.
     pub(super) name: &'static str,
-    /// Properties that must or may be given.
+    /// Required and optional properties.
     pub(super) dimensions: &'static [Dimension],
-    /// The body that follows.
+    /// Computes the body from the given properties.
     pub(super) body: fn(&GivenProperties) -> Result<Body, ExactError>,
-    /// Length that must be positive beside the dimensions.
+    /// A derived length that must be positive, in addition to the conditions on the dimensions.
     pub(super) condition: Option<Condition>,
 }
 
-/// A length that must be positive.
+/// Condition that a derived length is positive.
 #[derive(Clone, Copy)]
 pub(super) struct Condition {
-    /// Name of the length, in words.
+    /// Name of the length in messages.
     pub(super) what: &'static str,
-    /// Value of the length.
+    /// Computes the length, in m.
     pub(super) value: fn(&GivenProperties) -> Quantity,
 }
 
-/// A property with its unit and the condition on its sign.
+/// A property, with its unit and a condition on its sign.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Dimension {
     pub(super) name: &'static str,
@@ -97,10 +99,10 @@ pub(super) const fn optional(name: &'static str, unit: &'static str, sign: Sign)
 const MASS: Dimension = required("mass", "kg", Sign::NonNegative);
 const LENGTH: Dimension = required("length", "m", Sign::Positive);
 const RADIUS: Dimension = required("radius", "m", Sign::Positive);
-/// A distance that may be zero: a disc can turn about its centre.
+/// Distance from the pivot to the centre, which may be zero: a disc can turn about its centre.
 const DISTANCE: Dimension = required("length", "m", Sign::NonNegative);
 
-/// Properties that every link may have, whatever its shape.
+/// Properties that a link of any shape may have.
 pub(super) const COMMON: &[Dimension] = &[
     optional("com", "m", Sign::Any),
     optional("inertia", "kg m²", Sign::NonNegative),
@@ -117,14 +119,14 @@ pub(super) const COMMON: &[Dimension] = &[
     optional("rest", "rad", Sign::Any),
 ];
 
-/// Properties that a link without a shape must have.
+/// Required properties of a link without a shape.
 pub(super) const PLAIN: &[Dimension] = &[
     MASS,
     required("com", "m", Sign::Any),
     required("inertia", "kg m²", Sign::NonNegative),
 ];
 
-/// All shapes.
+/// All known shapes.
 pub(super) const SHAPES: &[BodyShape] = &[
     BodyShape {
         name: "point",
@@ -194,12 +196,12 @@ pub(super) const SHAPES: &[BodyShape] = &[
     },
 ];
 
-/// The values of the properties that a link gives.
+/// Values of the properties that are given for a link, by name.
 #[derive(Debug, Default)]
 pub(super) struct GivenProperties(pub(super) Vec<(&'static str, Offset)>);
 
 impl GivenProperties {
-    /// A property that may be a pair.
+    /// Returns the value of a property that may be a pair.
     pub(super) fn point(&self, name: &str) -> Option<&Offset> {
         self.0
             .iter()
@@ -207,18 +209,18 @@ impl GivenProperties {
             .map(|(_, value)| value)
     }
 
-    /// A property that is a single value.
+    /// Returns the value of a property that is a single value.
     pub(super) fn value(&self, name: &str) -> Option<&Quantity> {
         self.point(name).map(|point| &point.along)
     }
 
-    /// A dimension of a shape; an optional one that is not given is zero.
+    /// Returns the value of a dimension; zero for an optional one that is not given.
     pub(super) fn get(&self, name: &str) -> Quantity {
         self.value(name).cloned().unwrap_or_else(Quantity::zero)
     }
 }
 
-/// A point on the axis of a link.
+/// Returns a point on the axis of a link, at the distance `along` from the pivot.
 fn on_axis(along: Quantity) -> Offset {
     Offset {
         along,
@@ -226,7 +228,7 @@ fn on_axis(along: Quantity) -> Offset {
     }
 }
 
-/// The fraction `numerator / denominator` of a value.
+/// Returns `value` times `numerator / denominator`.
 fn fraction(numerator: i64, denominator: i64, value: Quantity) -> Result<Quantity, ExactError> {
     Quantity::product([Quantity::integer(numerator), value])
         .divided_by(Quantity::integer(denominator))
@@ -240,7 +242,7 @@ fn product(a: &Quantity, b: Quantity) -> Quantity {
     Quantity::product([a.clone(), b])
 }
 
-/// A point mass m on a massless rod: com = joint = L, I = 0.
+/// Computes the body of a point mass m on a massless rod: com = joint = L, I = 0.
 fn point(given: &GivenProperties) -> Result<Body, ExactError> {
     let length = given.get("length");
     Ok(Body {
@@ -251,7 +253,7 @@ fn point(given: &GivenProperties) -> Result<Body, ExactError> {
     })
 }
 
-/// A uniform thin rod on its end: com = L/2, I = m L²/12, joint = L.
+/// Computes the body of a uniform thin rod on its end: com = L/2, I = m L²/12, joint = L.
 fn rod(given: &GivenProperties) -> Result<Body, ExactError> {
     let (mass, length) = (given.get("mass"), given.get("length"));
     Ok(Body {
@@ -262,8 +264,8 @@ fn rod(given: &GivenProperties) -> Result<Body, ExactError> {
     })
 }
 
-/// A uniform thin rod of mass m with a point mass b at its end:
-/// com = (m/2 + b) L/(m + b), I = m L²/12 + m b/(m + b) (L/2)², joint = L.
+/// Computes the body of a uniform thin rod of mass m with a point mass b at its end: com = (m/2 +
+/// b) L/(m + b), I = m L²/12 + m b/(m + b) (L/2)², joint = L.
 fn rod_with_bob(given: &GivenProperties) -> Result<Body, ExactError> {
     let (rod, bob) = (given.get("mass"), given.get("bob_mass"));
     let length = given.get("length");
@@ -279,8 +281,8 @@ fn rod_with_bob(given: &GivenProperties) -> Result<Body, ExactError> {
     })
 }
 
-/// A uniform solid cylinder on the centre of its end, turning across its axis:
-/// com = L/2, I = m (L²/12 + r²/4), joint = L.
+/// Computes the body of a uniform solid cylinder that hangs from the centre of one end and turns
+/// about an axis across it: com = L/2, I = m (L²/12 + r²/4), joint = L.
 fn cylinder(given: &GivenProperties) -> Result<Body, ExactError> {
     let (mass, length) = (given.get("mass"), given.get("length"));
     let along = fraction(1, 12, square(&length)?)?;
@@ -293,8 +295,8 @@ fn cylinder(given: &GivenProperties) -> Result<Body, ExactError> {
     })
 }
 
-/// A uniform rectangular plate with a pivot hole at the distance `margin` from
-/// either end: com = L/2 - margin, I = m (L² + w²)/12, joint = L - 2 margin.
+/// Computes the body of a uniform rectangular plate with a pivot hole at the distance `margin` from
+/// each end: com = L/2 - margin, I = m (L² + w²)/12, joint = L - 2 margin.
 fn plate(given: &GivenProperties) -> Result<Body, ExactError> {
     let (mass, length) = (given.get("mass"), given.get("length"));
     let squares = Quantity::sum([square(&length)?, square(&given.get("width"))?]);
@@ -307,14 +309,14 @@ fn plate(given: &GivenProperties) -> Result<Body, ExactError> {
     })
 }
 
-/// The distance between the holes of a plate.
+/// Returns the distance between the two holes of a plate, in m.
 fn plate_span(given: &GivenProperties) -> Quantity {
     let margins = product(&Quantity::integer(-2), given.get("margin"));
     Quantity::sum([given.get("length"), margins])
 }
 
-/// A round body with its centre at the distance `length`: com = joint = L,
-/// I = factor · m r².
+/// Computes the body of a round object with its centre at the distance `length`: com = joint = L, I
+/// = factor · m r². The factor is `numerator / denominator`.
 fn round(given: &GivenProperties, numerator: i64, denominator: i64) -> Result<Body, ExactError> {
     let (mass, length) = (given.get("mass"), given.get("length"));
     let square = square(&given.get("radius"))?;
@@ -326,22 +328,22 @@ fn round(given: &GivenProperties, numerator: i64, denominator: i64) -> Result<Bo
     })
 }
 
-/// A uniform disc on a massless arm: I = m r²/2.
+/// Computes the body of a uniform disc on a massless arm: I = m r²/2.
 fn disc(given: &GivenProperties) -> Result<Body, ExactError> {
     round(given, 1, 2)
 }
 
-/// A thin ring on a massless arm: I = m r².
+/// Computes the body of a thin ring on a massless arm: I = m r².
 fn ring(given: &GivenProperties) -> Result<Body, ExactError> {
     round(given, 1, 1)
 }
 
-/// A uniform ball on a massless arm: I = 2 m r²/5.
+/// Computes the body of a uniform ball on a massless arm: I = 2 m r²/5.
 fn ball(given: &GivenProperties) -> Result<Body, ExactError> {
     round(given, 2, 5)
 }
 
-/// A thin spherical shell on a massless arm: I = 2 m r²/3.
+/// Computes the body of a thin spherical shell on a massless arm: I = 2 m r²/3.
 fn shell(given: &GivenProperties) -> Result<Body, ExactError> {
     round(given, 2, 3)
 }

@@ -1,8 +1,9 @@
-//! Straight springs that leave symmetric coordinates their sectors (physics (19.10)).
+//! Straight springs that do not couple sectors (sets of symmetric coordinates: all means, or one
+//! difference between copies) (physics (19.10)).
 //!
-//! A length couples sectors in general. Springs without length at rest do not, where each of the
-//! copies under one link is tied to each other at the same place. They have an energy in the
-//! sectors of these copies' differences alone.
+//! The length of a straight spring usually depends on several sectors. Springs of zero rest length
+//! are an exception if they connect every two copies under one link, at the same point of each
+//! copy. Their energy depends only on the sectors of these copies' differences.
 
 use std::collections::BTreeMap;
 
@@ -12,22 +13,23 @@ use super::{
 };
 use crate::report::NoChord;
 
-/// Straight springs between equal places of every two copies of a group.
+/// Straight springs between the same point of every two copies of a group.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DescribedChordSpring {
-    /// Index of the group.
+    /// Index of the group of copies.
     pub group: usize,
-    /// κ r² of two copies, J: the stiffness by the square of the distance from the pivot, summed
-    /// over the springs between them.
+    /// κ r² between two copies, in J: stiffness times the squared distance of the point from the
+    /// pivot, summed over the springs between the two.
     pub strength: Quantity,
 }
 
 impl Scene {
-    /// The straight springs of each group of copies, by all clauses together. The groups are those
-    /// of the whole tree.
+    /// Returns the straight springs of each group of copies, summed over all clauses, if every
+    /// straight spring is of this kind. The groups are those of the whole tree.
     ///
     /// # Errors
-    /// The clauses of another kind, by their index in [`Scene::translational`].
+    /// The indices in [`Scene::translational`] of the clauses that are not of this kind, each with
+    /// the reason.
     pub fn chord_springs(
         &self,
         groups: &[Group],
@@ -66,7 +68,7 @@ impl Scene {
                 }
                 continue;
             }
-            // The same between all copies makes no difference.
+            // A `siblings` clause is equal between all copies and cannot cause the difference.
             for &(index, _) in all.into_iter().flatten() {
                 let ends = &self.translational[index].ends;
                 if matches!(ends, LineEnds::Links(SpringDamperEnds::Links(_), _)) {
@@ -81,7 +83,7 @@ impl Scene {
     }
 }
 
-/// The group of each link that is a copy.
+/// Returns, for each link that is a copy, the index of its group.
 fn by_link(groups: &[Group]) -> BTreeMap<usize, usize> {
     let groups = groups.iter().enumerate();
     let copies = groups.flat_map(|(group, own)| {
@@ -100,7 +102,7 @@ fn are_equal(one: &[(usize, Quantity)], other: &[(usize, Quantity)]) -> bool {
     one == other || Quantity::sum([one, other.negative()]).is_zero()
 }
 
-/// The two copies, the first one first, and κ r².
+/// Returns the two connected copies, in the order of the line, and κ r² in J.
 fn chord(
     own: &DescribedTranslationalSpringDamper,
     line: &SpringLine,
@@ -128,7 +130,7 @@ fn chord(
         [Some(one), Some(other)] if one == other => {}
         _ => return Err(NoChord::OtherLinks),
     }
-    // Arms of other links are those of pivots that are not one.
+    // Arms of other links remain if the two pivots differ.
     let are_alone = line
         .arms
         .iter()

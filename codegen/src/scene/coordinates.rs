@@ -1,35 +1,36 @@
-//! Symmetric coordinates (physics §3): for copies side by side, their mean and their
-//! orthogonal differences, from the leaves up. Copies that differ have the same ones.
+//! Symmetric coordinates (physics §3): the mean angle of sibling copies, and orthogonal differences
+//! between them, built from the leaves upwards. Copies with different values get the same
+//! coordinates as equal ones.
 
 use super::{Group, LinkId, OrbitId, Scene};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Place of a symmetric coordinate in the tree.
+/// Kind of a symmetric coordinate, and the links to which it belongs.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum CoordinateKind {
-    /// Mean angle of all copies of a node; the link's own angle where there is one.
+    /// Mean angle of all copies of a node; the link's own angle if it has no copies.
     Mean {
-        /// The orbit of the first of them.
+        /// Orbit (set of equal copies of one node) of the first of these links.
         orbit: OrbitId,
     },
-    /// Difference number `index` (from 1) between the copies of a group, in
-    /// one orbit below its node.
+    /// Difference between the copies of a group: between the angles of corresponding links (of one
+    /// orbit) in each copy.
     Difference {
         /// Index of the group in the scene.
         group: usize,
-        /// Number of the difference, 1 to copies − 1.
+        /// Number of the difference, from 1 to the number of copies − 1.
         index: usize,
-        /// The orbit of the first of the links.
+        /// Orbit of the first of these links.
         orbit: OrbitId,
-        /// Σ of the squared weights: the factor between the mass matrix of one
-        /// copy and that of the difference (2 for a pair).
+        /// Sum of the squared weights. The mass matrix of the difference is that of one copy
+        /// divided by it (2 for a pair).
         norm: i64,
     },
 }
 
 impl CoordinateKind {
-    /// Index of the orbit, and which of its coordinates: `None` for the mean,
-    /// group and number for a difference.
+    /// Returns the index of the orbit, and the difference as its group and number; `None` for a
+    /// mean.
     pub fn orbit_and_difference(&self) -> (usize, Option<(usize, usize)>) {
         match *self {
             Self::Mean { orbit } => (orbit.0, None),
@@ -43,33 +44,34 @@ impl CoordinateKind {
     }
 }
 
-/// One symmetric coordinate: θ_link = Σ weight · coordinate.
+/// One symmetric coordinate. The angle of a link is the sum over coordinates: θ_link = Σ weight ·
+/// coordinate.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Coordinate {
-    /// Short name; `theta_` and `p_` stand before it in code.
+    /// Short name; emitted names put `theta_` or `p_` before it.
     pub name: String,
-    /// Mean or difference.
+    /// Kind of the coordinate: a mean or a difference.
     pub kind: CoordinateKind,
-    /// Weight of this coordinate in the angle of each link; links without it
-    /// are left out. Columns of different coordinates are orthogonal.
+    /// Weight of this coordinate in the angle of each link; links of weight 0 are left out. The
+    /// weight vectors of different coordinates are orthogonal.
     pub weights: Vec<(LinkId, i64)>,
 }
 
 impl Coordinate {
-    /// Σ of the squared weights, by which the inverse transform divides.
+    /// Returns the sum of the squared weights, the divisor of the inverse transform.
     pub fn norm(&self) -> i64 {
         self.weights.iter().map(|(_, w)| w * w).sum()
     }
 }
 
-/// The links of one orbit below a node, in the order of copies.
+/// Links of one orbit below a node, in the order of the copies.
 struct Strand {
     orbit: OrbitId,
     links: Vec<LinkId>,
 }
 
-/// The symmetric coordinates of a scene: means in the order of the orbits,
-/// then differences, outer groups first.
+/// Returns the symmetric coordinates of a scene: first the means, in the order of the orbits, then
+/// the differences, those of outer groups first.
 pub fn symmetric_coordinates(scene: &Scene) -> Vec<Coordinate> {
     let mut differences = Vec::new();
     let below = Below::new(scene);
@@ -98,7 +100,7 @@ pub fn symmetric_coordinates(scene: &Scene) -> Vec<Coordinate> {
     all
 }
 
-/// What hangs from each link.
+/// Children, and groups of copies, below each link.
 struct Below<'a> {
     children: Vec<Vec<LinkId>>,
     groups: Vec<Vec<(usize, &'a Group)>>,
@@ -122,7 +124,8 @@ impl<'a> Below<'a> {
     }
 }
 
-/// Strands of the subtree at `link`; differences met on the way are added.
+/// Returns the strands (links of one orbit, in order) of the subtree at `link`, and adds the
+/// differences of the groups in it to `differences`.
 fn descend(
     scene: &Scene,
     below: &Below<'_>,
@@ -151,9 +154,9 @@ fn descend(
     strands
 }
 
-/// Joins the strands of the copies of a group into means, and records the
-/// Helmert differences: difference r weighs the first r copies with 1 and the
-/// next one with −r.
+/// Joins the strands of a group's copies into one strand per orbit, whose mean is a coordinate, and
+/// adds Helmert differences: difference r has the weight 1 for the first r copies and −r for the
+/// next one.
 fn combine(
     group: usize,
     copies: Vec<Vec<Strand>>,
@@ -196,8 +199,8 @@ fn combine(
     joined
 }
 
-/// `m` and `d` in the paper's case of one pair of leaves; otherwise the
-/// orbit's name and where the branching is: `child_m`, `hand_d` between arms,
+/// Names the coordinates: `m` and `d` for a single pair of leaves, the paper's case. Otherwise the
+/// name is that of the node with the position of the branching: `child_m`, `hand_d` between arms,
 /// `hand_1_d` between the hands of arm 1, `child_d2` for a second difference.
 fn name_coordinates(scene: &Scene, coordinates: &mut [Coordinate]) {
     let groups = scene.groups.len();
@@ -235,7 +238,7 @@ fn name_coordinates(scene: &Scene, coordinates: &mut [Coordinate]) {
                 }
             }
         };
-        // A link may be called `m`; its angle keeps that name.
+        // If a link is called `m`, its angle keeps that name.
         while coordinate.weights.len() > 1 && link_names.contains(&coordinate.name) {
             coordinate.name.push('_');
         }

@@ -1,4 +1,4 @@
-//! The drive: torque and motion from outside, as functions of time.
+//! The drive: external torque and prescribed motion of the root's pivot, as functions of time.
 
 use super::values::{Usage, Values, all};
 use super::{Quantity, RationalExpression, Sign};
@@ -6,28 +6,28 @@ use crate::description::{self, Expression, ExpressionKind, Property, TIME, Value
 use crate::named_members::named_members;
 use crate::report::{Faults, SyntaxMessage, TreeMessage, ValueMessage, nearest};
 
-/// A torque on the root and a motion of its pivot; at least one of them.
+/// Torque on the root and motion of its pivot; at least one of them is given.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Drive<V = Quantity> {
-    /// Torque on the root, against the ground, N m.
+    /// Torque of the ground on the root, in N m.
     pub torque: Option<Signal<V>>,
-    /// Position of the root's pivot in the direction in which positive angles
-    /// move a link's end, m.
+    /// Horizontal position of the root's pivot, in m, positive in the direction in which positive
+    /// angles move a link's end.
     pub x: Option<Signal<V>>,
-    /// Position of the root's pivot upwards, m.
+    /// Vertical position of the root's pivot, in m, positive upwards.
     pub y: Option<Signal<V>>,
 }
 
-/// A function of time that is smooth at every time: nothing that depends on time is divided
-/// by. What reads the drive forms no quotient, and no power with a negative exponent.
+/// A smooth function of time. No divisor depends on time. Code that reads the drive can rely on it:
+/// there are no quotients and no powers with negative exponents.
 pub type Signal<V = Quantity> = RationalExpression<SignalAtom<V>>;
 
-/// What functions of time are formed of.
+/// Operands of functions of time.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum SignalAtom<V = Quantity> {
-    /// A value that does not change.
+    /// A constant.
     Constant(V),
-    /// Time, s.
+    /// Time, in s.
     Time,
     /// A function of an angle in rad.
     Function(TimeFunction, Box<Signal<V>>),
@@ -44,10 +44,10 @@ named_members! {
     }
 }
 
-/// The parts of a drive.
+/// Names of the parts of a drive.
 const PARTS: &[&str] = &["torque", "x", "y"];
 
-/// Reads the drive; what is wrong goes to `report`.
+/// Resolves the drive. Adds mistakes to `report`.
 pub(super) fn resolve_drive(
     drive: Option<&description::DriveClause>,
     values: &mut Values,
@@ -104,7 +104,7 @@ pub(super) fn resolve_drive(
     Some(resolved)
 }
 
-/// The function of time that an expression states.
+/// Converts an expression to a function of time.
 fn signal(
     expression: &Expression,
     usage: &Usage<'_>,
@@ -118,7 +118,7 @@ fn signal(
     part(expression, usage, values, report)
 }
 
-/// The use of a part of a function of time.
+/// Returns the usage (name, unit, sign) of an operand within a function of time.
 fn part_of(usage: &Usage<'_>) -> Usage<'static> {
     Usage {
         what: format!("part of the {}", usage.what),
@@ -127,8 +127,8 @@ fn part_of(usage: &Usage<'_>) -> Usage<'static> {
     }
 }
 
-/// Returns true for an expression that a property could have: no time, no
-/// function.
+/// Returns true if the expression contains neither the time nor a function, as the value of a
+/// property does.
 fn is_plain(expression: &Expression) -> bool {
     match &expression.kind {
         ExpressionKind::Number(_) => true,
@@ -142,7 +142,7 @@ fn is_plain(expression: &Expression) -> bool {
     }
 }
 
-/// A part of a larger expression.
+/// Converts an operand of a larger expression.
 fn part(
     expression: &Expression,
     usage: &Usage<'_>,
@@ -196,8 +196,8 @@ fn part(
     })
 }
 
-/// The factor that divisors amount to, none without any. Divisors are the same at
-/// all times, so that the drive is finite at all times.
+/// Returns the reciprocal of the product of all divisors, or an empty list without divisors.
+/// Divisors do not depend on time, so that the drive is finite at all times.
 fn divisor(
     divisors: &[Expression],
     usage: &Usage<'_>,
@@ -221,7 +221,7 @@ fn divisor(
 }
 
 impl<V> Drive<V> {
-    /// The drive with constants that are formed of its own.
+    /// Returns the drive with `formed` applied to every constant.
     pub fn map<W>(&self, formed: &impl Fn(&V) -> W) -> Drive<W> {
         let map = |part: &Option<Signal<V>>| part.as_ref().map(|signal| signal.map(formed));
         Drive {
@@ -233,7 +233,7 @@ impl<V> Drive<V> {
 }
 
 impl<V> Signal<V> {
-    /// The function with constants that are formed of its own.
+    /// Returns the function with `formed` applied to every constant.
     pub fn map<W>(&self, formed: &impl Fn(&V) -> W) -> Signal<W> {
         self.substitute(&|atom| {
             Signal::Atom(match atom {
@@ -248,7 +248,7 @@ impl<V> Signal<V> {
 }
 
 impl Drive {
-    /// Parts of the drive by name, with their units.
+    /// Returns the parts that the drive has, each with its name and unit.
     pub fn parts(&self) -> impl Iterator<Item = (&'static str, &Signal, &'static str)> {
         let parts = [
             ("torque", &self.torque, "N m"),

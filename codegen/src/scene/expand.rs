@@ -1,40 +1,46 @@
-//! Templates to links: every copy written out and named.
+//! Expands templates (one per node of the description) to links: every copy is written out and
+//! named.
 
 use std::collections::BTreeMap;
 
 use proc_macro2::Span;
 
 use super::template::{MAX_LINKS, Template};
-use super::{Group, Link, LinkId, Orbit, OrbitId};
+use super::{Group, Lineage, Link, LinkId, Orbit, OrbitId};
 use crate::report::{Faults, SizeMessage, TreeMessage};
 
-/// Most pairs of a link and one above it in a tree that is written out. A chain of 100
-/// links, 4,950 pairs, takes 2 s in an unoptimised build, with its energies 5 s.
+/// Largest number of pairs of a link and one of its ancestors in a tree that is written out. A
+/// chain of 100 links has 4,950 pairs and takes 2 s in an unoptimised build, or 5 s with its
+/// energies.
 const MAX_PAIRS: usize = 6000;
 
-/// The tree with all its copies.
+/// The tree with all copies written out.
 pub(super) struct ExpandedTree {
     pub(super) links: Vec<Link>,
     pub(super) orbits: Vec<Orbit>,
     pub(super) groups: Vec<Group>,
+    /// The lineage that the tree is, if it is one. Its open and closed links are no group, because
+    /// different subtrees hang from them.
+    pub(super) lineage: Option<Lineage>,
 }
 
 /// A copy that is still to be written out.
 struct Pending {
     template: usize,
     parent: Option<LinkId>,
-    /// The numbers of the copies that it is or hangs in, as in `_2_1`.
+    /// Numbers of the copies on the path from the root to this copy, as in `_2_1`.
     suffix: String,
 }
 
-/// Writes out all copies, parent before child, depth first. The templates must
-/// be few enough in copies, see [`check_size`].
-pub(super) fn expand(templates: &[Template]) -> ExpandedTree {
+/// Writes out all copies depth first, each parent before its children. The number of copies must be
+/// limited before, see [`check_size`].
+pub(super) fn expand(templates: &[Template], lineage: Option<Lineage>) -> ExpandedTree {
     let children = children_of(templates);
     let mut expansion = ExpandedTree {
         links: Vec::new(),
         orbits: orbits(templates),
         groups: Vec::new(),
+        lineage,
     };
     let mut groups = BTreeMap::new();
     let mut stack = Vec::new();
@@ -52,14 +58,15 @@ pub(super) fn expand(templates: &[Template]) -> ExpandedTree {
         let id = LinkId(expansion.links.len());
         let own = link(template, &pending);
         if let Some(orbit) = expansion.orbits.get_mut(pending.template) {
-            // Copies that differ cannot share the name of their node.
+            // If copies of the node differ, the orbit (set of equal copies of one link) gets the
+            // name of its first link instead of the node's.
             if orbit.name.is_empty() {
                 orbit.name.clone_from(&own.name);
             }
             orbit.links.push(id);
         }
         expansion.links.push(own);
-        if template.copies > 1 || template.number.is_some() {
+        if lineage.is_none() && (template.copies > 1 || template.number.is_some()) {
             let key = (pending.parent, template.origin);
             let index = *groups.entry(key).or_insert_with(|| {
                 expansion.groups.push(Group {
@@ -87,7 +94,8 @@ pub(super) fn expand(templates: &[Template]) -> ExpandedTree {
     expansion
 }
 
-/// The templates that hang from each, last first: the stack gives back the last first.
+/// Returns the child templates of each template in reverse order, because the last one on the stack
+/// is taken first.
 fn children_of(templates: &[Template]) -> Vec<Vec<usize>> {
     let mut children = vec![Vec::new(); templates.len()];
     for (index, template) in templates.iter().enumerate().rev() {
@@ -98,7 +106,8 @@ fn children_of(templates: &[Template]) -> Vec<Vec<usize>> {
     children
 }
 
-/// The numbers of a template's copies behind those that they hang in, last first.
+/// Returns the suffixes of the names of a template's copies, as in `_2_1`, in reverse order;
+/// `above` is the suffix of their parent.
 fn suffixes(template: &Template, above: &str) -> impl Iterator<Item = String> {
     let numbers = match template.number {
         Some(number) => number..=number,
@@ -111,7 +120,7 @@ fn suffixes(template: &Template, above: &str) -> impl Iterator<Item = String> {
     })
 }
 
-/// One copy of a template.
+/// Creates the link for one copy of a template.
 fn link(template: &Template, pending: &Pending) -> Link {
     let Template {
         name,
@@ -133,8 +142,9 @@ fn link(template: &Template, pending: &Pending) -> Link {
     }
 }
 
-/// The orbits of the templates, still without links, and without names where copies of
-/// their node or of one above it differ. Templates stand in the order of their first link.
+/// Creates the orbits (sets of equal copies), one per template, without links. Orbits get no name
+/// yet if copies of their node, or of a node above it, differ. Templates are in the order of their
+/// first link.
 fn orbits(templates: &[Template]) -> Vec<Orbit> {
     let mut orbits: Vec<Orbit> = Vec::with_capacity(templates.len());
     for template in templates {
@@ -152,14 +162,15 @@ fn orbits(templates: &[Template]) -> Vec<Orbit> {
     orbits
 }
 
-/// The name of the group that a copy belongs to: the copy's without its own
+/// Returns the name of the group that a copy belongs to: the name of the copy without its own
 /// number.
 fn group_name(template: &Template, suffix: &str) -> String {
     let outer = suffix.rsplit_once('_').map_or("", |(outer, _)| outer);
     format!("{}{outer}", template.name)
 }
 
-/// Returns true if all copies together are at most [`MAX_LINKS`].
+/// Reports a tree of more than [`MAX_LINKS`] links, copies included; returns true if there are
+/// fewer.
 pub(super) fn check_size(templates: &[Template], report: &mut Faults) -> bool {
     let totals = running_totals(templates);
     let beyond = templates
@@ -175,7 +186,7 @@ pub(super) fn check_size(templates: &[Template], report: &mut Faults) -> bool {
     beyond.is_none()
 }
 
-/// Number of links of the templates up to each, copies included.
+/// Returns, for each template, the number of links of all templates up to it, copies included.
 pub(super) fn running_totals(templates: &[Template]) -> Vec<usize> {
     let mut copies: Vec<usize> = Vec::with_capacity(templates.len());
     let mut links: usize = 0;
@@ -189,8 +200,8 @@ pub(super) fn running_totals(templates: &[Template]) -> Vec<usize> {
     templates.iter().map(&mut total).collect()
 }
 
-/// Checks that a tree is small enough for code that is written out: pairs of a link and
-/// one above it are the entries of its mass matrix.
+/// Checks that a tree is small enough to be written out. It counts pairs of a link and one of its
+/// ancestors, which are the entries of the mass matrix.
 pub(super) fn check_pairs(links: &[Link], span: Span, report: &mut Faults) -> bool {
     let mut depths: Vec<usize> = Vec::with_capacity(links.len());
     for link in links {
@@ -205,8 +216,8 @@ pub(super) fn check_pairs(links: &[Link], span: Span, report: &mut Faults) -> bo
     pairs <= MAX_PAIRS
 }
 
-/// Reports names of links, orbits and groups that two nodes share, and returns the names
-/// of all, each with the node's first template.
+/// Reports names that are shared by links, orbits or groups of two nodes. Returns all names, each
+/// with the first template of its node.
 pub(super) fn check_names(
     expansion: &ExpandedTree,
     templates: &[Template],
@@ -216,6 +227,7 @@ pub(super) fn check_names(
         links,
         orbits,
         groups,
+        lineage: _,
     } = expansion;
     let of_orbits = orbits
         .iter()
@@ -234,7 +246,7 @@ pub(super) fn check_names(
         if owner == template {
             continue;
         }
-        // One message for each pair of nodes, not for each of their copies.
+        // One message per pair of nodes, not per pair of copies.
         let later = owner.max(template);
         if let (Some(reported), Some(node)) = (reported.get_mut(later), templates.get(later))
             && !std::mem::replace(reported, true)

@@ -1,57 +1,64 @@
-//! Which trees are written out link by link, and which are taken through loops.
+//! Decides whether the equations of a tree are written out link by link or computed in loops.
 
 use proc_macro2::Span;
 
-use super::Requests;
 use super::Solve;
 use super::bodies::Body;
+use super::outputs::Support;
 use super::requests::Resolved;
 use super::rule::Code;
 use super::template::{MAX_LINKS, Template, WholeRule};
 use crate::report::{Faults, SizeMessage};
 
-/// Trees by rule of at least so many links get loops: straight code for one state is slower,
-/// and takes several times as long to compile (`docs/performance.md`).
+/// Smallest number of links of a rule-based tree that gets loops by default. From there on,
+/// straight code for one state is slower and takes several times as long to compile
+/// (`docs/performance.md`).
 const FEWEST: usize = 63;
 
-/// Other trees of more links than this get a loop: straight code for more is no faster,
-/// and takes long to derive and compile (`docs/performance.md`).
+/// Largest number of links of any other tree that is written out by default. Straight code for more
+/// links is no faster and takes long to derive and compile (`docs/performance.md`).
 const MOST_UNROLLED: usize = 100;
 
-/// Most links of a tree by rule: what an index of 32 bits counts. Where all numbers have as
-/// many bits the largest stands for every sum beyond, and is too many.
+/// Largest number of links of a rule-based tree: the range of a 32-bit index. If `usize` has 32
+/// bits too, `usize::MAX` stands for every larger sum and counts as too many.
 pub(super) const MOST: usize = match 1_usize.checked_shl(32) {
     Some(most) => most,
     None => usize::MAX - 1,
 };
 
-/// Most generations of such a tree whose bodies have parameters.
+/// Largest number of generations in loops if masses, lengths or inertias contain parameters.
 const MOST_WITH_PARAMETERS: usize = 64;
 
-/// How the code takes the equations of motion through the tree.
+/// Layout of the generated code.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Layout {
-    /// Written out, link by link.
+    /// Equations written out link by link.
     Unrolled,
-    /// In loops over generations: [`Scene::links`](super::Scene::links) holds one link of each.
+    /// Loops over generations; [`Scene::links`](super::Scene::links) holds one link of each
+    /// generation.
     Generations {
-        /// Children of each link but those of the last generation.
+        /// Number of children of each link above the last generation.
         branching: usize,
-        /// Links of all generations.
+        /// Number of links in all generations.
         links: usize,
     },
-    /// In a loop over all links.
+    /// A loop over all links.
     Links,
 }
 
-/// Outputs that are asked for about a tree.
-pub(super) struct Asked<'a> {
+/// Outputs requested for a tree.
+pub(super) struct RequestedOutputs<'a> {
     pub(super) resolved: &'a Resolved,
     pub(super) observables: bool,
 }
 
-/// How the code of a rule would be laid out that is not reduced.
-pub(super) fn unreduced(rule: WholeRule, templates: &[Template], asked: &Asked<'_>) -> Layout {
+/// Returns the layout that the code of a rule would have without reductions (copies in phase,
+/// locked joints).
+pub(super) fn unreduced(
+    rule: WholeRule,
+    templates: &[Template],
+    asked: &RequestedOutputs<'_>,
+) -> Layout {
     let branching = rule.branching;
     let links = links(branching, templates.len());
     let looped = match rule.code {
@@ -64,7 +71,7 @@ pub(super) fn unreduced(rule: WholeRule, templates: &[Template], asked: &Asked<'
     }
 }
 
-/// Number of links of so many generations.
+/// Returns the number of links of a tree with the given number of generations.
 fn links(branching: usize, generations: usize) -> usize {
     let (mut links, mut count): (usize, usize) = (0, 1);
     for _ in 0..generations {
@@ -74,16 +81,16 @@ fn links(branching: usize, generations: usize) -> usize {
     links
 }
 
-/// Decides how the code of a rule is laid out. Where it is loops, leaves one
-/// template for a link of each generation.
+/// Chooses the code layout of a rule-based tree. For loops, it reduces the templates to one link
+/// per generation.
 ///
 /// # Errors
-/// Where the tree can neither be written out nor have loops, or has loops that
-/// it cannot have; `report` says why.
+/// The tree can neither be written out nor get loops, or the requested loops are impossible; the
+/// reason is added to `report`.
 pub(super) fn of_rule(
     rule: WholeRule,
     templates: &mut [Template],
-    asked: &Asked<'_>,
+    asked: &RequestedOutputs<'_>,
     report: &mut Faults,
 ) -> Result<Layout, ()> {
     let links = links(rule.branching, templates.len());
@@ -122,13 +129,13 @@ pub(super) fn of_rule(
     }
 }
 
-/// Decides how the code of a tree that is no rule is laid out. Where it cannot be loops
-/// and must, `report` says why.
+/// Chooses the code layout of a tree that is given link by link. If loops are required but
+/// impossible, adds the reason to `report`.
 pub(super) fn of_links(
     code: Option<(Code, Span)>,
     links: usize,
     templates: &[Template],
-    asked: &Asked<'_>,
+    asked: &RequestedOutputs<'_>,
     report: &mut Faults,
 ) -> Layout {
     let span = match code {
@@ -138,23 +145,24 @@ pub(super) fn of_links(
         None => return Layout::Unrolled,
     };
     let obstacle = unlooped(templates, asked);
-    // What is unreadable may look like an obstacle.
-    if let (Some(what), Some(span), true) = (obstacle, span, report.is_empty()) {
-        let what = what.to_owned();
-        report.error(span, SizeMessage::NoLoops { what });
-    }
-    match obstacle {
+    let layout = match obstacle {
         Some(_) => Layout::Unrolled,
         None => Layout::Links,
+    };
+    // After other mistakes the obstacle may not be real.
+    if let (Some(what), Some(span), true) = (obstacle, span, report.is_empty()) {
+        report.error(span, SizeMessage::NoLoops { what });
     }
+    layout
 }
 
-/// Reasons in words against loops over generations.
-fn obstacle(templates: &[Template], asked: &Asked<'_>) -> Option<String> {
+/// Returns the reason why loops over generations are impossible, in words; `None` if they are
+/// possible.
+fn obstacle(templates: &[Template], asked: &RequestedOutputs<'_>) -> Option<String> {
     if let Some(what) = unlooped(templates, asked) {
-        return Some(what.to_owned());
+        return Some(what);
     }
-    // Their constants are formed of those of all generations below, in code.
+    // The code would compute the constants of a generation from those of all generations below it.
     let parameters = templates.len() > MOST_WITH_PARAMETERS
         && templates.iter().any(|template| {
             let Body {
@@ -174,39 +182,28 @@ fn obstacle(templates: &[Template], asked: &Asked<'_>) -> Option<String> {
     parameters.then(|| format!("parameters in more than {MOST_WITH_PARAMETERS} generations"))
 }
 
-/// Reasons in words against loops of either kind.
-fn unlooped(templates: &[Template], asked: &Asked<'_>) -> Option<&'static str> {
-    let Requests {
-        energies: _,
-        momenta,
-        modes,
-        symmetric,
-        transfer,
-        budget,
-        taylor,
-        positions: _,
-        transverse,
-        small: _,
-        forces: _,
-        solve,
-    } = &asked.resolved.requests;
-    // Loops are the recursion.
-    let factorization = *solve == Some(Solve::Factorization);
-    let exact_or_truncated = budget.as_ref().is_some_and(|budget| !budget.scales);
-    let requests = [
-        (*momenta, "`emit(momenta)`"),
-        (*modes, "`emit(modes)`"),
-        (*symmetric, "`emit(symmetric)`"),
-        (transfer.is_some(), "`emit(transfer)`"),
+/// Returns the reason why loops of either kind are impossible, in words; `None` if they are
+/// possible.
+fn unlooped(templates: &[Template], asked: &RequestedOutputs<'_>) -> Option<String> {
+    let requests = &asked.resolved.requests;
+    // Loops always use the articulated recursion.
+    let factorization = requests.solve == Some(Solve::Factorization);
+    let budget = requests.budget.as_ref();
+    let exact_or_truncated = budget.is_some_and(|budget| !budget.scales);
+    let flags = requests.named();
+    let flag = flags
+        .filter(|(_, support)| *support != Support::Everywhere)
+        .last();
+    let values = [
+        (requests.transfer.is_some(), "`emit(transfer)`"),
         (exact_or_truncated, "`emit(budget)`"),
-        (*taylor, "`emit(taylor)`"),
-        (*transverse, "`emit(transverse)`"),
         (asked.resolved.acting.is_some(), "`emit(small)`"),
         (asked.observables, "`observe(…)`"),
         (factorization, "`solve = factorization`"),
         (templates.len() < 2, "a single generation"),
     ];
-    // What brings others along comes last.
-    let request = requests.into_iter().rev().find(|(wanted, _)| *wanted);
-    request.map(|(_, what)| what)
+    // Search from the end: a request that implies other requests comes after them.
+    let value = values.into_iter().rev().find(|(wanted, _)| *wanted);
+    let value = value.map(|(_, what)| what.to_owned());
+    value.or_else(|| flag.map(|(name, _)| format!("`emit({name})`")))
 }

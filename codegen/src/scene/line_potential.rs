@@ -1,45 +1,46 @@
-//! Laws of the energy that the line between two points stores.
+//! Energy of the line between two points as a function of its length.
 
 use super::Quantity;
 use crate::description::{Expression, ExpressionKind, Property, Value};
 use crate::exact::Rational;
 
-/// A term of the energy that a line stores, by the length ℓ between its points.
+/// A term of the potential energy of a line, as a function of the distance ℓ between its end
+/// points.
 #[derive(Debug, Clone, PartialEq)]
 pub enum DescribedLinePotential {
-    /// The energy ½ κ (ℓ − L₀)² of a spring.
+    /// Energy ½ κ (ℓ − L₀)² of a spring.
     Spring {
-        /// Stiffness κ, N/m; not zero.
+        /// Stiffness κ, in N/m; not zero.
         stiffness: Quantity,
-        /// Length L₀ at rest, m.
+        /// Rest length L₀, in m.
         rest: Quantity,
     },
-    /// The energy A/ℓⁿ of a force by a power of the distance, which repels where A is positive.
+    /// Energy A/ℓⁿ of a power law; the force is repulsive if A is positive.
     InversePower {
-        /// Strength A, J mⁿ; not zero.
+        /// Strength A, in J mⁿ; not zero.
         strength: Quantity,
         /// Exponent n, from 1 to [`LARGEST_EXPONENT`].
         exponent: u32,
     },
 }
 
-/// Units of strengths, by exponents from 1 on.
+/// Units of the strength A for the exponents n = 1, 2, ….
 const STRENGTH_UNITS: [&str; 12] = [
     "J m", "J m²", "J m³", "J m⁴", "J m⁵", "J m⁶", "J m⁷", "J m⁸", "J m⁹", "J m¹⁰", "J m¹¹",
     "J m¹²",
 ];
 
-/// The largest exponent: that of the repulsion of Lennard-Jones.
+/// Largest exponent: 12, as in the repulsion of the Lennard-Jones potential.
 pub const LARGEST_EXPONENT: u32 = STRENGTH_UNITS.len() as u32;
 
-/// The unit of a strength; empty for an exponent that no law has.
+/// Returns the unit of the strength A for an exponent; empty if the exponent is not supported.
 pub fn strength_unit(exponent: u32) -> &'static str {
     let place = usize::try_from(exponent).ok();
     let unit = place.and_then(|exponent| STRENGTH_UNITS.get(exponent.checked_sub(1)?));
     unit.copied().unwrap_or_default()
 }
 
-/// The exponent that a property states, if there is a law with it.
+/// Reads the exponent from the value of a property; `None` if it is not a supported integer.
 pub(super) fn exponent(property: &Property) -> Option<u32> {
     let Value::Single(Expression {
         kind: ExpressionKind::Number(number),
@@ -52,7 +53,7 @@ pub(super) fn exponent(property: &Property) -> Option<u32> {
 }
 
 impl DescribedLinePotential {
-    /// The quantities of the law, by the names of their properties and with their units.
+    /// Returns the quantities of this energy term, each with the name of its property and its unit.
     pub fn quantities(&self) -> Vec<(&'static str, &Quantity, &'static str)> {
         match self {
             Self::Spring { stiffness, rest } => {
@@ -64,7 +65,8 @@ impl DescribedLinePotential {
         }
     }
 
-    /// What these are of: a "spring", or a "repulsion" where there is nothing else.
+    /// Returns the noun for these terms in messages: "spring", or "repulsion" if there is no
+    /// spring.
     pub(super) fn noun(all: &[Self]) -> &'static str {
         let is_repulsion = |own: &Self| matches!(own, Self::InversePower { .. });
         match !all.is_empty() && all.iter().all(is_repulsion) {

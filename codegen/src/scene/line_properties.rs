@@ -1,4 +1,5 @@
-//! Properties of clauses between points: where these are, and what acts along the line.
+//! Properties of clauses whose forces act along the line between two points: the end points and the
+//! forces.
 
 use super::bodies::{Dimension, optional};
 use super::line_potential::{self, DescribedLinePotential, LARGEST_EXPONENT, strength_unit};
@@ -22,17 +23,17 @@ const PROPERTIES: &[Dimension] = &[
     optional("exponent", "", Sign::Positive),
 ];
 
-/// Properties that a clause may have.
+/// Returns the properties that a clause may have.
 fn dimensions(clause: &SpringDamperClause) -> impl Iterator<Item = &'static Dimension> {
     let is_guy = clause.name == GUY;
     let known = PROPERTIES.iter();
     known.filter(move |known| known.name != "to" || is_guy)
 }
 
-/// The properties of a straight spring and damper.
+/// Values of the properties of a straight spring and damper.
 #[derive(Default)]
 pub(super) struct LineProperties {
-    /// Points of the links, one or two.
+    /// Attachment points on the links: one for all links, or one per link.
     at: Vec<Offset>,
     to: Option<[Quantity; 2]>,
     spring: Option<Quantity>,
@@ -42,7 +43,7 @@ pub(super) struct LineProperties {
     friction: Option<Quantity>,
 }
 
-/// Reads the properties of a clause; what is wrong goes to `report`.
+/// Reads the properties of a clause. Adds mistakes to `report`.
 pub(super) fn line_properties(
     clause: &SpringDamperClause,
     what: &str,
@@ -93,7 +94,7 @@ pub(super) fn line_properties(
     given
 }
 
-/// Checks that something acts along the line, and that a clause has what belongs together.
+/// Checks that at least one force acts along the line, and that the properties are complete.
 fn check_complete(clause: &SpringDamperClause, what: &str, report: &mut Faults) {
     let span = clause.name.span();
     let acts = ["spring", "friction", "repulsion", "exponent"];
@@ -120,7 +121,7 @@ fn check_complete(clause: &SpringDamperClause, what: &str, report: &mut Faults) 
     }
 }
 
-/// The points of `at`: one, or `each(...)` with one for each of two links.
+/// Reads the value of `at`: one point, or `each(...)` with one point for each of two links.
 fn points(
     property: &Property,
     known: &Dimension,
@@ -151,7 +152,8 @@ fn points(
     points.collect()
 }
 
-/// The place that a guy is tied to.
+/// Reads the fixed point to which a guy (a straight spring between a link and the ground) is
+/// attached.
 fn peg(
     property: &Property,
     what: &str,
@@ -175,12 +177,13 @@ fn peg(
 }
 
 impl LineProperties {
-    /// What acts along the line: a "spring", or a "repulsion" alone.
+    /// Returns the noun for these forces in messages: "spring", or "repulsion" if there is no
+    /// spring.
     pub(super) fn noun(&self) -> &'static str {
         DescribedLinePotential::noun(&self.potentials())
     }
 
-    /// The spring between points of these links.
+    /// Creates the straight spring between points of the given links.
     pub(super) fn between(
         self,
         what: String,
@@ -191,7 +194,7 @@ impl LineProperties {
         Some(self.spring_damper(what, LineEnds::Links(ends, points)))
     }
 
-    /// The guy of a link.
+    /// Creates the guy (a straight spring to the ground) of a link.
     pub(super) fn guy(
         self,
         what: String,
@@ -210,7 +213,7 @@ impl LineProperties {
         }
     }
 
-    /// The laws whose strength is not zero.
+    /// Returns the terms of the potential energy whose strength is not zero.
     fn potentials(&self) -> Vec<DescribedLinePotential> {
         let is_there = |value: &&Quantity| !value.is_zero();
         let spring = self.spring.as_ref().filter(is_there).cloned();

@@ -1,28 +1,29 @@
-//! The pairs of links that spring-dampers act between.
+//! Pairs of links that are connected by spring-dampers.
 
 use super::layout::Layout;
-use super::{Coordinate, LinkId, OrbitId, Scene};
+use super::{Coordinate, Lineage, LinkId, OrbitId, Scene};
 
-/// The links of a spring-damper.
+/// Links that a spring-damper connects.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum SpringDamperEnds {
-    /// Two links; where the code is loops over generations, by their index in the whole tree.
+    /// Two links. If the code is loops over generations, these are indices in the whole tree.
     Links([LinkId; 2]),
-    /// All copies of the node of that name under one link, two by two.
+    /// All pairs of copies of the node of this name that hang from the same link.
     Siblings(String),
 }
 
-/// Two links that a spring-damper acts between.
+/// Two links connected by a spring-damper.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct LinkPair {
     /// Index of the spring-damper in [`Scene::spring_dampers`].
     pub spring_damper: usize,
-    /// The links.
+    /// The two connected links.
     pub links: [LinkId; 2],
 }
 
 impl LinkPair {
-    /// Weights of symmetric coordinates in the difference of the links' angles, by their index.
+    /// Returns the weights of symmetric coordinates in the difference of the two angles, by the
+    /// index of the coordinate; zero weights are left out.
     pub fn weights(&self, coordinates: &[Coordinate]) -> Vec<(usize, i64)> {
         let weight = |coordinate: &Coordinate, link: LinkId| {
             let mut own = coordinate.weights.iter();
@@ -38,25 +39,24 @@ impl LinkPair {
     }
 }
 
-/// Pairs of links that stand side by side: so many, each of the links behind those of the one
-/// before.
+/// Consecutive pairs of links: in each pair both indices are larger by one than in the pair before.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct PairRun {
-    /// The first pair, by the links' indices in the whole tree.
+    /// First pair, as indices of links in the whole tree.
     pub first: [usize; 2],
-    /// Number of pairs.
+    /// Number of pairs in the run.
     pub count: usize,
 }
 
 impl PairRun {
-    /// All pairs.
+    /// Returns all pairs of the run.
     pub(super) fn pairs(self) -> impl Iterator<Item = [usize; 2]> {
         (0..self.count).map(move |place| self.first.map(|link| link + place))
     }
 }
 
 impl Scene {
-    /// The links that spring-dampers act between, two by two, where the code is not loops over
+    /// Returns all pairs of links that spring-dampers connect. Valid unless the code is loops over
     /// generations.
     pub fn link_pairs(&self) -> Vec<LinkPair> {
         let all = self.spring_dampers.iter().enumerate();
@@ -70,14 +70,16 @@ impl Scene {
         pairs.collect()
     }
 
-    /// Returns true if something acts between links that are not parent and child, or along a line.
+    /// Returns true if a spring or damper connects two points, or two links that are not parent and
+    /// child.
     pub fn is_coupled(&self) -> bool {
         let mut spring_dampers = self.spring_dampers.iter();
         let between = spring_dampers.any(|own| !self.pair_runs(&own.ends).is_empty());
         between || !self.translational.is_empty()
     }
 
-    /// The pairs of links that one acts between; none of copies that one link stands for.
+    /// Returns the pairs of links that a spring-damper connects. The list is empty if they are
+    /// identical copies that move in phase and are therefore a single link of the scene.
     pub fn pair_runs(&self, ends: &SpringDamperEnds) -> Vec<PairRun> {
         match (ends, self.layout) {
             (SpringDamperEnds::Links([LinkId(a), LinkId(b)]), _) => vec![PairRun {
@@ -88,6 +90,9 @@ impl Scene {
                 self.pairs_of_generation(node, branching)
             }
             (SpringDamperEnds::Siblings(node), Layout::Unrolled | Layout::Links) => {
+                if let Some(lineage) = self.lineage {
+                    return self.open_pair(node, lineage).into_iter().collect();
+                }
                 let families = self.copies_of(node);
                 let runs = families.flat_map(|copies| {
                     two_by_two(copies.len()).map(|[a, b]| PairRun {
@@ -100,8 +105,9 @@ impl Scene {
         }
     }
 
-    /// Pairs of siblings of a generation. Copy c under link i of the n above is number c n + i
-    /// of it.
+    /// Returns the pairs of siblings in the generation of the given node. Of two consecutive
+    /// generations the upper one has n links; copy c under its link i has the number c n + i in the
+    /// lower one.
     fn pairs_of_generation(&self, node: &str, branching: usize) -> Vec<PairRun> {
         let (mut start, mut above) = (1, 1);
         for link in self.links.iter().skip(1) {
@@ -118,7 +124,18 @@ impl Scene {
         Vec::new()
     }
 
-    /// The copies of a node under each link.
+    /// Returns the two links of a generation that the open path's link above them carries. All other
+    /// siblings of that generation move in phase.
+    fn open_pair(&self, node: &str, lineage: Lineage) -> Option<PairRun> {
+        let orbit = self.orbits.iter().find(|orbit| orbit.node == node)?;
+        let own = orbit.depth;
+        (own > 0).then(|| PairRun {
+            first: [lineage.open(own), lineage.closed(own, own)],
+            count: 1,
+        })
+    }
+
+    /// Returns the copies of a node, one list for each link from which they hang.
     fn copies_of<'a>(&'a self, node: &'a str) -> impl Iterator<Item = &'a [LinkId]> {
         let node_of = |link: LinkId| {
             let OrbitId(orbit) = self.links.get(link.0)?.orbit;
@@ -129,7 +146,7 @@ impl Scene {
     }
 }
 
-/// Every two of so many copies.
+/// Returns all pairs of numbers from 0 to `copies` − 1.
 fn two_by_two(copies: usize) -> impl Iterator<Item = [usize; 2]> {
     (0..copies).flat_map(move |first| (first + 1..copies).map(move |other| [first, other]))
 }

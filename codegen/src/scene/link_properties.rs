@@ -1,11 +1,11 @@
-//! A link as data.
+//! Numbers of a link as a list.
 
 use super::{Link, Quantity};
 use crate::functions::LINK_PROPERTIES;
 
 impl Link {
-    /// Returns the [properties](LINK_PROPERTIES) that say where the points of the link are and
-    /// how heavy it is.
+    /// Returns the values of the link's [properties](LINK_PROPERTIES): its points, mass and
+    /// inertia.
     pub fn properties(&self) -> [&Quantity; LINK_PROPERTIES.len()] {
         let Self {
             mass,

@@ -1,16 +1,21 @@
-//! The scene: a description checked and written out link by link.
+//! The scene: a validated description, expanded link by link.
 //!
-//! [`resolve()`] turns a [`Description`](crate::description::Description) into a
-//! [`Scene`]. Later stages read nothing else and may rely on what is said here:
+//! [`resolve()`] converts a [`Description`](crate::description::Description) to a [`Scene`]. Later
+//! stages read nothing else and may rely on these properties:
 //!
-//! - exactly one root; `links` holds every parent before its children, depth
-//!   first, with the copies of a subtree one after the other;
-//! - names of links, orbits, groups and parameters are snake-case Rust
-//!   identifiers, no keywords, and mean one thing each;
-//! - every literal mass and inertia is non-negative, and no choice of angles
-//!   makes the mass matrix singular as far as literals can tell; what only
-//!   parameters decide is listed in [`Scene::requirements`];
-//! - what `requests` asks for can be derived for this tree.
+//! - there is exactly one root; `links` holds every parent before its children, depth first, and
+//!   the copies of a subtree follow each other;
+//! - names of links, orbits, groups and parameters are snake-case Rust identifiers, no keywords,
+//!   and each has one meaning;
+//! - every literal mass and inertia is non-negative, and no choice of angles makes the mass matrix
+//!   singular, as far as literals decide it; conditions on parameters are listed in
+//!   [`Scene::requirements`];
+//! - all outputs in `requests` can be derived for this tree.
+//!
+//! An *orbit* is the set of links that are equal copies of one node of the description. A *group*
+//! is a set of sibling subtrees that are copies of each other. A *sector* is a set of symmetric
+//! coordinates that belong together: all means, or one difference between copies with everything
+//! that hangs below it.
 
 mod bodies;
 mod chords;
@@ -20,10 +25,12 @@ mod expand;
 mod layout;
 mod line_potential;
 mod line_properties;
+mod lineage;
 mod link_pairs;
 mod link_properties;
 mod magnitude;
 mod names;
+mod normal_form;
 mod notation;
 mod observables;
 mod observed;
@@ -59,6 +66,7 @@ pub use coordinates::{Coordinate, CoordinateKind};
 pub use drive::{Drive, Signal, SignalAtom, TimeFunction};
 pub use layout::Layout;
 pub use line_potential::{DescribedLinePotential, LARGEST_EXPONENT, strength_unit};
+pub use lineage::Lineage;
 pub use link_pairs::{LinkPair, PairRun, SpringDamperEnds};
 pub use magnitude::{Magnitudes, NEGLIGIBLE};
 pub use names::is_keyword;
@@ -66,7 +74,7 @@ pub use observed::{
     CoordinateIndex, Function, Observable, Observed, ObservedAtom, Variable, VariableKind,
 };
 pub use outputs::{BudgetRequest, Requests, Solve, TransferRequest};
-pub use passive::{FrictionLaw, FrictionPlace, PassiveTorques};
+pub use passive::{FrictionContact, FrictionLaw, PassiveTorques};
 pub use quantity::{Quantity, QuantityAtom};
 pub use rational_expression::RationalExpression;
 pub use resolve::resolve;
@@ -92,66 +100,67 @@ pub struct OrbitId(pub usize);
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct ParameterId(pub usize);
 
-/// A validated tree of links and what is asked for about it. SI units.
+/// A validated tree of links, with the requested outputs. All values are in SI units.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Scene {
-    /// Name of the struct that carries the attribute.
+    /// Name of the struct that the attribute is attached to.
     pub name: String,
     /// Path of the runtime crate, as in `::branched_pendulum`.
     pub crate_path: CratePath,
-    /// Gravitational acceleration, m/s²: towards where links of angle 0 point, so that the
-    /// tree [stands](Scene::stands) where it is negative.
+    /// Gravitational acceleration, in m/s², in the direction in which links of angle 0 point. If it
+    /// is negative, the tree [stands](Scene::stands) upright.
     pub gravity: Quantity,
-    /// All links, parent before child.
+    /// All links, each parent before its children.
     pub links: Vec<Link>,
-    /// Links that are copies of one node of the description, in the order of
-    /// their first link.
+    /// Orbits, in the order of their first link. An orbit is a set of links that are equal copies
+    /// of one node of the description.
     pub orbits: Vec<Orbit>,
-    /// Sibling subtrees that are copies, in the order of their first link.
+    /// Groups of sibling subtrees that are copies of each other, in the order of their first link.
     pub groups: Vec<Group>,
     /// The drive, if the tree has one.
     pub drive: Option<Drive>,
-    /// Named values that the model is given at run time, in the order of their
-    /// declaration, or where there is none: gravity's first, then link by link in the
-    /// order in which the description names them, then the drive's.
+    /// Named values that the user passes at run time. They are in the order of their declaration
+    /// or, if they are not declared, of their first use: gravity, then link by link in the order of
+    /// the description, then the drive.
     pub parameters: Vec<Parameter>,
-    /// Conditions on values that depend on parameters, to be checked when the
-    /// model is built.
+    /// Conditions on values that depend on parameters. They are checked when the model is built.
     pub requirements: Vec<Requirement>,
-    /// Outputs beside the accelerations.
+    /// Requested outputs, in addition to the accelerations.
     pub requests: Requests,
-    /// Quantities of the user's own. One that is written in symmetric
-    /// coordinates comes with `requests.symmetric`.
+    /// Quantities that the user defines. A quantity in symmetric coordinates also sets
+    /// `requests.symmetric`.
     pub observables: Vec<Observable>,
-    /// Links whose motion the caller states, those of each set together. The sets come with
-    /// `requests.forces`.
+    /// Sets of links whose motion the caller prescribes. They also set `requests.forces`.
     pub prescribed: Vec<PrescribedSet>,
     /// Springs and friction between links that are not parent and child.
     pub spring_dampers: Vec<DescribedSpringDamper>,
-    /// Straight springs and dampers between points of links, and guys.
+    /// Straight springs and dampers between points of links, and guys (straight springs between a
+    /// link and the ground).
     pub translational: Vec<DescribedTranslationalSpringDamper>,
-    /// How the links stand for those of the whole tree, where the description makes it
-    /// smaller.
+    /// Relation of the links to those of the whole tree, if reductions (copies in phase, locked
+    /// joints) make the tree smaller.
     pub reduction: Option<Reduction>,
-    /// How the code takes the equations through the tree. Over generations, `links`
-    /// holds one link of each, below each other, and there are no groups.
+    /// The lineage that the tree is, if a rule with one open branching per generation describes it.
+    pub lineage: Option<Lineage>,
+    /// Layout of the code. For loops over generations, `links` holds one link per generation, each
+    /// the child of the one before, and there are no groups.
     pub layout: Layout,
 }
 
 impl Scene {
-    /// Returns true if the code is loops, over generations or links.
+    /// Returns true if the code is loops, over generations or over links.
     pub fn in_loops(&self) -> bool {
         self.layout != Layout::Unrolled
     }
 
-    /// Returns true if gravity is written as negative: the tree stands up, and angles are
-    /// those from the upward vertical. What users give and see of y is upwards, whereas the
-    /// equations have it against the direction of links of angle 0, whichever that is.
+    /// Returns true if gravity is written as a negative value: the tree stands upright, and angles
+    /// are measured from the upward vertical. For users y always points upwards; in the equations
+    /// it points against the direction of links of angle 0.
     pub fn stands(&self) -> bool {
         self.gravity.is_written_negative()
     }
 
-    /// The direction of links of angle 0, in words.
+    /// Returns the direction of links of angle 0, in words.
     pub fn vertical(&self) -> &'static str {
         match self.stands() {
             true => "upward vertical",
@@ -159,7 +168,7 @@ impl Scene {
         }
     }
 
-    /// Returns true if any centre of mass or pivot is beside a link's axis.
+    /// Returns true if any centre of mass or pivot lies off its link's axis.
     pub fn is_lateral(&self) -> bool {
         let beside = |offset: &Offset| !offset.lateral.is_zero();
         let mut links = self.links.iter();
@@ -167,180 +176,179 @@ impl Scene {
     }
 }
 
-/// A rigid link, whose angle is absolute, from the [vertical](Scene::vertical).
+/// A rigid link. Its angle is absolute, measured from the [vertical](Scene::vertical).
 #[derive(Debug, Clone, PartialEq)]
 pub struct Link {
     /// Snake-case name, unique in the scene.
     pub name: String,
-    /// The link that it hangs from; `None` for the root.
+    /// Parent: the link from which it hangs; `None` for the root.
     pub parent: Option<LinkId>,
-    /// The orbit it belongs to.
+    /// Orbit (set of equal copies of one node) that the link belongs to.
     pub orbit: OrbitId,
-    /// Mass, kg.
+    /// Mass, in kg.
     pub mass: Quantity,
-    /// Moment of inertia about the centre of mass, kg m².
+    /// Moment of inertia about the centre of mass, in kg m².
     pub inertia: Quantity,
-    /// The centre of mass, from the link's own pivot.
+    /// Centre of mass, relative to the link's own pivot.
     pub com: Offset,
-    /// The link's pivot on its parent, from the parent's pivot and in the
-    /// parent's directions; zero for the root.
+    /// The link's pivot, relative to the parent's pivot and in the parent's frame; zero for the
+    /// root.
     pub pivot: Offset,
-    /// The link's end, from its own pivot: where links hang from it unless they say
-    /// where, or where they would; the centre of mass of a link that has no such
-    /// place.
+    /// End of the link, relative to its own pivot: the point from which children hang unless they
+    /// specify another one. The centre of mass if the link has no such point.
     pub end: Offset,
-    /// Friction and spring in its pivot, and drag against the ground.
+    /// Friction and spring in the link's pivot, and drag against the ground.
     pub passive: PassiveTorques,
 }
 
-/// A point of a link, from the link's pivot, m.
+/// A point of a link, relative to the link's pivot, in m.
 ///
-/// At angle 0 `along` points down, or up in a tree that [stands](Scene::stands), and
-/// `lateral` in the direction in which positive angles move the link's end.
+/// At angle 0 the component `along` points down, or up in a tree that [stands](Scene::stands);
+/// `lateral` points in the direction in which positive angles move the link's end.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Offset {
-    /// Component along the link.
+    /// Component along the link, in m.
     pub along: Quantity,
-    /// Component across the link.
+    /// Component across the link, in m.
     pub lateral: Quantity,
 }
 
-/// The links that are equal copies of one node of the description. Copies that differ
-/// are of several orbits.
+/// Set of links that are equal copies of one node of the description. Copies with different values
+/// belong to different orbits.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Orbit {
-    /// Name of the node, or of the first link where copies of the node differ.
+    /// Name of the node, or of the first link if copies of the node differ.
     pub name: String,
-    /// Name of the node: `child`, or `name_2` for a generation of a rule.
+    /// Name of the node: `child`, or `name_2` for the second generation of a rule.
     pub node: String,
-    /// Number of links between these and the ground, without themselves; 0 for
-    /// the root.
+    /// Number of ancestors of these links; 0 for the root.
     pub depth: usize,
-    /// The copies, in the order of [`Scene::links`].
+    /// The links, in the order of [`Scene::links`].
     pub links: Vec<LinkId>,
 }
 
-/// Sibling subtrees that are copies of one node, from a multiplicity or a generation rule
-/// and never guessed from equal numbers.
+/// Sibling subtrees that are copies of one node, declared by a multiplicity or a generation rule.
+/// Links that merely have equal values are not a group.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Group {
-    /// Name of the node of the copies, with the numbers of the copy it hangs
-    /// in: `hand_1` for the two hands of `arm_1`.
+    /// Name of the node, with the numbers of the copy that it hangs in: `hand_1` for the two hands
+    /// of `arm_1`.
     pub name: String,
-    /// The link that the copies hang from. Always present today, since a scene
-    /// has one root.
+    /// Link from which the copies hang. It is always present, because the root of a scene has no
+    /// copies.
     pub parent: Option<LinkId>,
-    /// The roots of the copies, two or more.
+    /// Uppermost links of the copies, two or more.
     pub copies: Vec<LinkId>,
 }
 
-/// Links whose motion is handed over together.
+/// A set of links whose motion the caller prescribes in one call.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct PrescribedSet {
-    /// Their names, joined: part of the name of their function.
+    /// Names of the links, joined; a part of the name of the emitted function.
     pub name: String,
-    /// The names, in the order written.
+    /// Names of the links, in the order written.
     pub members: Vec<String>,
-    /// The links in that order; where the code is loops over generations, by their index
-    /// in the whole tree.
+    /// The links in the order of their names. If the code is loops over generations, these are
+    /// indices in the whole tree.
     pub links: Vec<LinkId>,
 }
 
-/// Whole tree of a description whose scene is smaller than it.
+/// Whole tree of a description that reductions (copies in phase, locked joints) have made smaller.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Reduction {
-    /// Order in which the links of the whole tree stand.
+    /// Order of the links of the whole tree.
     pub order: WholeOrder,
     /// Number of links of the whole tree.
     pub links: usize,
-    /// The nodes of the whole tree, parents before children, depth first.
+    /// Nodes of the whole tree, depth first, each parent before its children.
     pub orbits: Vec<WholeNode>,
 }
 
-/// Order of the links of a whole tree: that of a scene without reductions.
+/// Order of the links of a whole tree, as in the scene without reductions.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum WholeOrder {
-    /// Each link before what hangs from it, and that before the next copy.
+    /// Depth first: a link, then all that hangs from it, then the next copy.
     DepthFirst,
-    /// Generation by generation.
+    /// Generation by generation, from the root on.
     Generations,
 }
 
-/// Links of a whole tree that are copies of one node of the description.
+/// Set of links of a whole tree that are copies of one node of the description.
 #[derive(Debug, Clone, PartialEq)]
 pub struct WholeNode {
-    /// Name of the node: `child`, or `name_2` for a generation of a rule.
+    /// Name of the node: `child`, or `name_2` for the second generation of a rule.
     pub name: String,
-    /// Copies under each copy of the parent.
+    /// Number of copies under each copy of the parent.
     pub copies: usize,
-    /// True if the copies under one parent move alike.
+    /// True if the copies under one parent move in phase: their angles are equal.
     pub in_phase: bool,
-    /// Index behind the last node of the subtree.
+    /// Index after the last node of the subtree.
     pub end: usize,
-    /// Motion of the copies.
+    /// Motion of the copies, given by the links of the scene.
     pub motion: NodeMotion,
 }
 
-/// Motion of a link of a whole tree in terms of the scene's links.
+/// Motion of a link of the whole tree, given by the links of the scene.
 #[derive(Debug, Clone, PartialEq)]
 pub enum NodeMotion {
-    /// As a link of the scene: the first copy as the one `offset` places behind the link
-    /// that it hangs from, each further one that moves by itself `stride` places later.
+    /// The link moves like a link of the scene. The first copy corresponds to the link `offset`
+    /// positions after the parent; each further copy that moves independently is `stride` positions
+    /// later.
     Moving {
-        /// Places between the first copy and the link that it hangs from.
+        /// Index difference between the first copy and its parent.
         offset: usize,
-        /// Places from one copy to the next.
+        /// Index difference between consecutive copies.
         stride: usize,
     },
-    /// As the link that it hangs from.
+    /// The link is locked to its parent.
     Locked {
-        /// Angle to that link, rad.
+        /// Angle to the parent, in rad.
         angle: Rational,
     },
 }
 
-/// A value that the description names instead of stating.
+/// A parameter: a value that the description names but does not give.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Parameter {
-    /// Snake-case name.
+    /// Name of the parameter in snake case.
     pub name: String,
-    /// Uses of the parameter, in words, with the unit where it stands alone.
+    /// Uses of the parameter, in words; with the unit if the parameter is a whole value.
     pub doc: String,
-    /// The strictest condition among its direct uses.
+    /// Strictest condition on its sign, among the values that consist of this parameter alone.
     pub sign: Sign,
 }
 
-/// A condition on the sign of a value.
+/// Condition on the sign of a value.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Sign {
     /// Any finite number.
     Any,
-    /// Zero or above: gravity of a tree that hangs.
+    /// At least zero: gravity of a tree that hangs.
     Hanging,
-    /// Zero or below: gravity of a tree that [stands](Scene::stands).
+    /// At most zero: gravity of a tree that [stands](Scene::stands).
     Standing,
-    /// Zero or above.
+    /// At least zero.
     NonNegative,
-    /// Above zero.
+    /// Greater than zero.
     Positive,
 }
 
-/// A condition on a value that depends on parameters.
+/// Condition on a value that depends on parameters.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Requirement {
-    /// The value in words, as in "mass of `child`".
+    /// Name of the value in messages, as in "mass of `child`".
     pub what: String,
-    /// The value.
+    /// The value to check.
     pub quantity: Quantity,
-    /// The condition on its sign.
+    /// Condition on its sign.
     pub sign: Sign,
-    /// The condition on its magnitude.
+    /// Condition on its magnitude.
     pub magnitudes: Magnitudes,
 }
 
 impl Requirement {
-    /// The value in words with the parameters that it is formed of.
-    pub fn what_of(&self, parameters: &[Parameter]) -> String {
+    /// Returns the name of the value, followed by the parameters that it contains.
+    pub fn describe_value(&self, parameters: &[Parameter]) -> String {
         let mut names: Vec<String> = Vec::new();
         for atom in self.quantity.atoms() {
             if let QuantityAtom::Parameter(ParameterId(index)) = atom

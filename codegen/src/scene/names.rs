@@ -1,11 +1,11 @@
-//! The names that a description may give.
+//! Checks of the names in a description.
 
 use proc_macro2::{Ident, Span};
 
 use crate::description::TIME;
-use crate::report::{Faults, Lookalike, Message, TreeMessage, ValueMessage};
+use crate::report::{Faults, Lookalike, Message, NameRule, TreeMessage, ValueMessage};
 
-/// Keywords of Rust 2024, reserved ones included.
+/// Keywords of Rust 2024, including reserved ones.
 #[rustfmt::skip]
 const KEYWORDS: &[&str] = &[
     "abstract", "as", "async", "await", "become", "box", "break", "const", "continue", "crate",
@@ -15,37 +15,37 @@ const KEYWORDS: &[&str] = &[
     "unsafe", "unsized", "use", "virtual", "where", "while", "yield",
 ];
 
-/// Names that the emitted code gives to things of its own.
+/// Names that the emitted code uses itself, for items and variables.
 #[rustfmt::skip]
 const EMITTED: &[&str] = &[
     "accelerations", "angles", "drive", "emit", "model", "momenta", "observe", "out", "scalar",
     "state", "time", "velocities", TIME,
 ];
 
-/// Constants that look like parameters, with digits to write instead.
+/// Mathematical constants that look like parameters, with the digits to write instead.
 const CONSTANTS: &[(&str, &str)] = &[
     ("pi", "3.14159265358979324"),
     ("tau", "6.28318530717958648"),
 ];
 
-/// Names that mean no finite number, in small letters.
+/// Names of values that are not finite, in lower case.
 const NOT_FINITE: &[&str] = &["inf", "infinity", "nan"];
 
-/// Types of joints that other tools have.
+/// Joint types of other simulation tools.
 #[rustfmt::skip]
 const JOINTS: &[&str] = &[
     "cylindrical", "fixed", "hinge", "prismatic", "revolute", "slider", "spherical", "universal",
     "weld",
 ];
 
-/// Functions that other tools have, and ours.
+/// Names of functions, of this tool and of others.
 #[rustfmt::skip]
 const FUNCTIONS: &[&str] = &[
     "abs", "acos", "asin", "atan", "atan2", "cos", "cosh", "exp", "ln", "log", "sign", "sin",
     "sinh", "sqrt", "tan", "tanh",
 ];
 
-/// Names of quantities that move, those of observables and words.
+/// Names of quantities that depend on the motion: those of observables, and common words.
 const MOTION: &[&str] = &[
     "acceleration",
     "angle",
@@ -55,7 +55,8 @@ const MOTION: &[&str] = &[
     "velocity",
 ];
 
-/// Message about a name in a property that reads like an angle or a velocity.
+/// Returns the message for a name in a property that looks like an angle or a velocity; `None` for
+/// other names.
 pub(super) fn motion(name: &str) -> Option<ValueMessage> {
     let known = MOTION.contains(&name) || name.starts_with("theta_") || name.starts_with("omega_");
     known.then(|| ValueMessage::Lookalike {
@@ -64,7 +65,8 @@ pub(super) fn motion(name: &str) -> Option<ValueMessage> {
     })
 }
 
-/// Message about a name that reads like no value at all.
+/// Returns the message for a name that looks like a joint type or a function; `None` for other
+/// names.
 fn lookalike(name: &str) -> Option<ValueMessage> {
     let name = name.to_owned();
     let kind = match name.as_str() {
@@ -78,16 +80,16 @@ fn lookalike(name: &str) -> Option<ValueMessage> {
     Some(ValueMessage::Lookalike { name, kind })
 }
 
-/// Checks the name of a link; a fault goes to `report`.
+/// Checks the name of a link. Adds a mistake to `report`.
 pub(super) fn check_link(name: &Ident, report: &mut Faults) {
-    if let Some(message) = fault(&name.to_string()) {
+    if let Some(message) = fault(&name.to_string(), report.names()) {
         report.error(name.span(), message);
     }
 }
 
-/// Checks the name of an observable; a fault goes to `report`.
+/// Checks the name of an observable. Adds a mistake to `report`.
 pub(super) fn check_observable(name: &Ident, report: &mut Faults) -> Option<()> {
-    match fault(&name.to_string()) {
+    match fault(&name.to_string(), report.names()) {
         Some(message) => {
             report.error(name.span(), message);
             None
@@ -96,7 +98,7 @@ pub(super) fn check_observable(name: &Ident, report: &mut Faults) -> Option<()> 
     }
 }
 
-/// The message about a constant without exact value, if `name` is one.
+/// Returns the message for a mathematical constant without an exact value; `None` for other names.
 pub(super) fn irrational(name: &str) -> Option<ValueMessage> {
     let small = name.to_ascii_lowercase();
     let &(_, digits) = CONSTANTS.iter().find(|(constant, _)| *constant == small)?;
@@ -106,15 +108,20 @@ pub(super) fn irrational(name: &str) -> Option<ValueMessage> {
     })
 }
 
-/// Checks the name of a parameter; a fault goes to `report`.
+/// Checks the name of a parameter. Adds a mistake to `report`.
 pub(super) fn check_parameter(name: &str, span: Span, report: &mut Faults) -> Option<()> {
     if name == TIME {
         report.error(span, ValueMessage::TimeOutsideDrive);
         return None;
     }
-    let message = irrational(name).or_else(|| lookalike(name));
+    let message = irrational(name)
+        .or_else(|| lookalike(name))
+        .or_else(|| match report.names() {
+            NameRule::SnakeCase => rust_constant(name),
+            NameRule::Free => None,
+        });
     let message = message.map(Message::from);
-    match message.or_else(|| fault(name).map(Message::from)) {
+    match message.or_else(|| fault(name, report.names()).map(Message::from)) {
         Some(message) => {
             report.error(span, message);
             None
@@ -123,17 +130,32 @@ pub(super) fn check_parameter(name: &str, span: Span, report: &mut Faults) -> Op
     }
 }
 
+/// Returns the message for a name in capital letters, like a constant of Rust; `None` for other
+/// names.
+fn rust_constant(name: &str) -> Option<ValueMessage> {
+    let is_upper = |c: char| c.is_ascii_uppercase() || c.is_ascii_digit() || c == '_';
+    let is_constant =
+        name.starts_with(|c: char| c.is_ascii_uppercase()) && name.chars().all(is_upper);
+    is_constant.then(|| ValueMessage::RustConstant {
+        name: name.to_owned(),
+    })
+}
+
 /// Returns true if a name is a keyword of Rust 2024.
 pub fn is_keyword(name: &str) -> bool {
     KEYWORDS.contains(&name)
 }
 
-/// The message about a name that may not be used.
-fn fault(name: &str) -> Option<TreeMessage> {
+/// Returns the message for a name that violates the rule; `None` for a valid name.
+fn fault(name: &str, rule: NameRule) -> Option<TreeMessage> {
     let name = name.to_owned();
+    let is_allowed = match rule {
+        NameRule::SnakeCase => is_snake_case(&name),
+        NameRule::Free => is_free(&name),
+    };
     if is_keyword(&name) || EMITTED.contains(&name.as_str()) {
         Some(TreeMessage::ReservedName { name })
-    } else if is_snake_case(&name) {
+    } else if is_allowed {
         None
     } else {
         let suggestion = snake_case(&name);
@@ -141,8 +163,8 @@ fn fault(name: &str) -> Option<TreeMessage> {
     }
 }
 
-/// Returns true if `name` is letters a to z, digits and single underscores, a
-/// letter first and no underscore last.
+/// Returns true if `name` consists of letters a to z, digits and single underscores, starts with a
+/// letter and does not end with an underscore.
 fn is_snake_case(name: &str) -> bool {
     let plain = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_';
     name.starts_with(|c: char| c.is_ascii_lowercase())
@@ -151,8 +173,14 @@ fn is_snake_case(name: &str) -> bool {
         && !name.contains("__")
 }
 
-/// `name` with its capitals written as words of their own, if that is a name
-/// which may be used.
+/// Returns true if `name` consists of letters of any script, digits and underscores, and contains a
+/// letter.
+fn is_free(name: &str) -> bool {
+    let is_plain = |c: char| c.is_alphanumeric() || c == '_';
+    name.chars().all(is_plain) && name.chars().any(char::is_alphabetic)
+}
+
+/// Converts a name with capitals to snake case; `None` if the result is not a valid name.
 fn snake_case(name: &str) -> Option<String> {
     let mut words = String::new();
     let mut after_small = false;
@@ -168,7 +196,7 @@ fn snake_case(name: &str) -> Option<String> {
     fault_free(&suggestion).then_some(suggestion)
 }
 
-/// Returns true if a name may be used.
+/// Returns true if the name may be used.
 fn fault_free(name: &str) -> bool {
     is_snake_case(name) && !is_keyword(name) && !EMITTED.contains(&name)
 }

@@ -1,4 +1,5 @@
-//! Expressions in the attribute's own notation, so that they could be written there again.
+//! Prints expressions in the notation of the attribute, so that they can be copied to a
+//! description.
 
 use std::fmt::{self, Display, Formatter};
 
@@ -7,23 +8,23 @@ use super::{Parameter, ParameterId, QuantityAtom, RationalExpression, SignalAtom
 use crate::description::TIME;
 use crate::exact::Rational;
 
-/// What can be written in the attribute's notation.
+/// Values that can be printed in the notation of the attribute.
 pub trait Shown {
-    /// The value on its way to text. `parameters` are those of the scene.
+    /// Converts the value to an expression of texts. `parameters` are those of the scene.
     fn shown(&self, parameters: &[Parameter]) -> ShownExpression;
 }
 
-/// An expression on its way to text.
+/// An expression whose operands are texts.
 type ShownExpression = RationalExpression<ShownAtom>;
 
-/// A part of an expression as text.
+/// An operand as text, for printing an expression.
 pub struct ShownAtom {
     text: String,
-    /// The tightest place in which it needs no parentheses.
+    /// Tightest precedence at which the text needs no parentheses.
     binding: Precedence,
 }
 
-/// Surroundings of an expression in the text, from loosest to tightest.
+/// Precedence of the surroundings of an expression, from loosest to tightest.
 #[derive(Clone, Copy, PartialEq, PartialOrd)]
 enum Precedence {
     Sum,
@@ -33,7 +34,7 @@ enum Precedence {
 }
 
 impl<A: Shown> RationalExpression<A> {
-    /// The value as text. `parameters` are those of the scene.
+    /// Returns the value as text. `parameters` are those of the scene.
     pub fn display(&self, parameters: &[Parameter]) -> impl Display {
         self.shown(parameters)
     }
@@ -106,7 +107,7 @@ impl ShownExpression {
         Self::Atom(ShownAtom { text, binding })
     }
 
-    /// The tightest place in which the expression needs no parentheses.
+    /// Returns the tightest precedence at which the expression needs no parentheses.
     fn binding(&self) -> Precedence {
         match self {
             Self::Atom(atom) => atom.binding,

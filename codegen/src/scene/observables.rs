@@ -1,4 +1,4 @@
-//! From clauses to observables.
+//! Resolves the clauses of `observe(...)` to observables.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -15,8 +15,8 @@ use crate::exact::ExactError;
 use crate::functions::{ObservableForm, is_method};
 use crate::report::{Faults, Message, OutputMessage, TreeMessage, ValueMessage, nearest};
 
-/// Adds the observables to the scene, whose tree is complete; what is wrong
-/// goes to `report`. `owners` holds the names of links, orbits and groups.
+/// Adds the observables to the scene, whose tree is complete. Adds mistakes to `report`. `owners`
+/// holds the names of links, orbits (sets of equal copies of one link) and groups.
 pub(super) fn resolve_observables(
     observables: &[description::ObservableClause],
     scene: &mut Scene,
@@ -50,7 +50,7 @@ pub(super) fn resolve_observables(
     }
 }
 
-/// Checks that none of the observable's functions exists already.
+/// Checks that the names of the observable's functions are not yet used.
 fn check_functions(
     name: &Ident,
     symbols: &ObservableSymbols,
@@ -74,7 +74,7 @@ fn check_functions(
     true
 }
 
-/// The value of an expression; `None` after reporting what is wrong.
+/// Evaluates an expression of an observable; returns `None` after reporting a mistake.
 fn evaluate(
     expression: &Expression,
     symbols: &ObservableSymbols,
@@ -133,7 +133,7 @@ fn evaluate(
     None
 }
 
-/// A function of an expression.
+/// Evaluates a function call.
 fn call(
     function: &Ident,
     argument: &Expression,
@@ -163,7 +163,7 @@ fn call(
     Some(Observed::Atom(ObservedAtom::Call(known, Box::new(value))))
 }
 
-/// The product of `above` divided by that of `below`.
+/// Returns the product of all `above` divided by the product of all `below`.
 fn quotient(above: Vec<Observed>, below: Vec<Observed>) -> Result<Observed, ExactError> {
     if let (Some(above), Some(below)) = (known(&above), known(&below)) {
         let quotient = Quantity::product(above).divided_by(Quantity::product(below));
@@ -182,7 +182,7 @@ fn quotient(above: Vec<Observed>, below: Vec<Observed>) -> Result<Observed, Exac
     })
 }
 
-/// The values as quantities, if all are known.
+/// Returns the values as quantities; `None` if one of them depends on the motion.
 fn known(values: &[Observed]) -> Option<Vec<Quantity>> {
     let quantities = values.iter().map(|value| value.quantity().cloned());
     quantities.collect()

@@ -1,4 +1,4 @@
-//! Observables as data: quantities of the user's own in the symbols of the scene.
+//! Observables: quantities that the user defines, as expressions in the symbols of the scene.
 
 use self::ObservedAtom::Known;
 use super::{Quantity, RationalExpression};
@@ -7,67 +7,68 @@ use crate::named_members::named_members;
 /// A quantity that the description defines by an expression.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Observable {
-    /// Snake-case name; its functions are called after it.
+    /// Snake-case name, from which the names of its functions are derived.
     pub name: String,
     /// Definition of the observable.
     pub value: Observed,
 }
 
-/// An expression in the symbols of the scene. Sums, products, quotients and powers of
-/// what is known are one [`ObservedAtom::Known`].
+/// An expression in the symbols of the scene. Sums, products, quotients and powers of known values
+/// are folded into one [`ObservedAtom::Known`].
 pub type Observed = RationalExpression<ObservedAtom>;
 
-/// What observables are formed of.
+/// Operands of observables.
 #[derive(Debug, Clone, PartialEq)]
 pub enum ObservedAtom {
-    /// Numbers, parameters, gravity, and what is formed of them.
+    /// A value that does not depend on the motion: numbers, parameters, gravity and expressions of
+    /// them.
     Known(Quantity),
-    /// A quantity that moves.
+    /// A quantity that depends on the motion.
     Variable(Variable),
-    /// A constant of the model, by its name there; one that the model does not
-    /// have is zero.
+    /// A constant of the model, identified by its name in the emitted code. A constant that does
+    /// not occur in the model is zero.
     Constant(String),
-    /// Kinetic energy, J.
+    /// Kinetic energy, in J.
     KineticEnergy,
-    /// Potential energy, J.
+    /// Potential energy, in J.
     PotentialEnergy,
-    /// A function of a value.
+    /// A function of an expression.
     Call(Function, Box<Observed>),
 }
 
-/// A coordinate, or its velocity or momentum.
+/// A coordinate, its velocity or its momentum.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Variable {
     /// Name as the user writes it: `theta_child_1`, `p_d`.
     pub name: String,
     /// Angle, velocity or momentum of the coordinate.
     pub kind: VariableKind,
-    /// The coordinate.
+    /// The generalized coordinate that this variable belongs to.
     pub coordinate: CoordinateIndex,
 }
 
 /// Kind of a [`Variable`] of a coordinate.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum VariableKind {
-    /// The coordinate itself, rad.
+    /// The coordinate itself, in rad.
     Angle,
-    /// Velocity of the coordinate, rad/s.
+    /// Velocity of the coordinate, in rad/s.
     Velocity,
-    /// The momentum that belongs to it, kg m²/s.
+    /// Canonical momentum of the coordinate, in kg m²/s.
     Momentum,
 }
 
 /// A generalized coordinate.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum CoordinateIndex {
-    /// The absolute angle of the link with that index.
+    /// Absolute angle of the link with this index.
     Absolute(usize),
-    /// The symmetric coordinate with that index.
+    /// Symmetric coordinate (mean or difference of copies) with this index.
     Symmetric(usize),
 }
 
 named_members! {
-    /// Functions of observables.
+    /// Functions that observables can use.
     #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
     pub enum Function {
         /// Sine.
@@ -80,12 +81,12 @@ named_members! {
 }
 
 impl Observed {
-    /// A value that is known.
+    /// Creates an observable from a value that does not depend on the motion.
     pub(super) fn known(quantity: Quantity) -> Self {
         Self::Atom(Known(quantity))
     }
 
-    /// The value if it is known.
+    /// Returns the value if it does not depend on the motion.
     pub(super) fn quantity(&self) -> Option<&Quantity> {
         match self {
             Self::Atom(Known(quantity)) => Some(quantity),
@@ -93,8 +94,8 @@ impl Observed {
         }
     }
 
-    /// Returns true if a variable that only the symmetric coordinates have
-    /// occurs.
+    /// Returns true if the expression contains a variable that exists in symmetric coordinates
+    /// only.
     pub fn is_symmetric(&self) -> bool {
         self.atoms().into_iter().any(|atom| match atom {
             ObservedAtom::Variable(variable) => {

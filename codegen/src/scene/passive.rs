@@ -1,5 +1,4 @@
-//! Torques that a link has by its own motion: friction and a spring in its pivot, and drag
-//! against the ground.
+//! Passive torques of a link: friction and a spring in its pivot, and drag against the ground.
 
 use super::Quantity;
 use super::bodies::{Dimension, GivenProperties};
@@ -7,52 +6,55 @@ use crate::description::Property;
 use crate::exact::Rational;
 use crate::report::{Faults, SyntaxMessage, TreeMessage, nearest};
 
-/// Friction and spring of a link; what it does not have is zero. Every stage has them with
-/// constants `V` of its own.
+/// Friction, drag and spring of a link; absent ones are zero. `V` is the type of the constants,
+/// which differs between stages.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct PassiveTorques<V = Quantity> {
-    /// Viscous friction in the link's pivot, N m s, on the angular velocity
-    /// relative to the parent (to the ground for the root).
+    /// Coefficient of viscous friction in the link's pivot, in N m s; it acts on the angular
+    /// velocity relative to the parent (to the ground for the root).
     pub friction: V,
-    /// Viscous drag against the ground, N m s, on the link's own angular velocity.
+    /// Coefficient of viscous drag against the ground, in N m s; it acts on the link's own angular
+    /// velocity.
     pub drag: V,
-    /// Stiffness of a torsion spring in the link's pivot, N m, on the angle
+    /// Stiffness of a torsion spring in the link's pivot, in N m; it acts on the angle
     /// relative to the parent (to the vertical for the root).
     pub spring: V,
-    /// Relative angle at which the spring is at rest, rad.
+    /// Friction that is not viscous: the laws at the contacts [`FrictionContact::ALL`], in this
+    /// order.
     pub rest: V,
-    /// Friction that is not viscous, by [`FrictionPlace`].
+    /// Friction that is not viscous, in the order of [`FrictionContact::ALL`].
     pub laws: [FrictionLaw<V>; 2],
 }
 
-/// Law of the torque at the rate w, −(C/s + q s) w with the speed s = √(w² + ε²): Coulomb's
-/// −C sign w and −q w |w| where |w| is large beside the width ε, and smooth where it is not.
+/// Law of the friction torque at the angular velocity w: −(C/s + q s) w with the speed s = √(w² +
+/// ε²). If |w| is large compared with the width ε, this is Coulomb's −C sign w plus −q w |w|; near
+/// w = 0 it is smooth.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct FrictionLaw<V = Quantity> {
-    /// Coulomb friction C, N m.
+    /// Coulomb friction C, in N m.
     pub coulomb: V,
-    /// Quadratic friction q, N m s².
+    /// Quadratic friction q, in N m s².
     pub quadratic: V,
-    /// Width ε, rad/s.
+    /// Smoothing width ε, in rad/s.
     pub width: V,
 }
 
-/// The part of a link that friction acts on.
+/// Contact at which friction acts on a link.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum FrictionPlace {
-    /// The link's pivot, on the rate relative to the parent.
+pub enum FrictionContact {
+    /// The link's pivot; acts on the angular velocity relative to the parent.
     Joint,
-    /// Itself, against the ground, on its own rate.
+    /// The ground; acts on the link's own angular velocity.
     Ground,
 }
 
-impl FrictionPlace {
-    /// Both, in the order of [`PassiveTorques::laws`].
+impl FrictionContact {
+    /// Both contacts, in the order of [`PassiveTorques::laws`].
     pub const ALL: [Self; 2] = [Self::Joint, Self::Ground];
 }
 
 impl<V> FrictionLaw<V> {
-    /// The law with constants that are formed of its own.
+    /// Returns the law with `formed` applied to every constant.
     pub fn map<W>(&self, mut formed: impl FnMut(&V) -> W) -> FrictionLaw<W> {
         FrictionLaw {
             coulomb: formed(&self.coulomb),
@@ -63,7 +65,7 @@ impl<V> FrictionLaw<V> {
 }
 
 impl<V> PassiveTorques<V> {
-    /// The torques with constants that are formed of their own.
+    /// Returns the torques with `formed` applied to every constant.
     pub fn map<W>(&self, mut formed: impl FnMut(&V) -> W) -> PassiveTorques<W> {
         PassiveTorques {
             friction: formed(&self.friction),
@@ -74,15 +76,14 @@ impl<V> PassiveTorques<V> {
         }
     }
 
-    /// The law of friction at a place.
-    pub fn law(&self, place: FrictionPlace) -> &FrictionLaw<V> {
+    /// Returns the friction law at a contact.
+    pub fn law(&self, place: FrictionContact) -> &FrictionLaw<V> {
         &self.laws[place as usize]
     }
 }
 
 impl FrictionLaw {
-    /// The law in these parentheses of a link. The width divides, so that it is one where
-    /// there is no law.
+    /// Reads the law `force(...)` of a link. Without a law the width is 1, because it is a divisor.
     fn of(given: &GivenProperties, force: &str) -> Self {
         let member = |name: &str| format!("{force}({name})");
         let mut law = Self {
@@ -97,12 +98,12 @@ impl FrictionLaw {
         law
     }
 
-    /// Returns true if there is no such friction.
+    /// Returns true if the law has neither Coulomb nor quadratic friction.
     pub fn is_none(&self) -> bool {
         self.coulomb.is_zero() && self.quadratic.is_zero()
     }
 
-    /// The law of links that turn as one, as heavy as so many.
+    /// Multiplies the constants of the law by the number of links that move as one.
     fn times(&mut self, count: usize) {
         for value in [&mut self.coulomb, &mut self.quadratic] {
             *value = value.times(count);
@@ -110,13 +111,13 @@ impl FrictionLaw {
     }
 }
 
-/// One hundredth of a radian a second.
+/// Returns the default smoothing width, 0.01 rad/s.
 fn default_width() -> Quantity {
     Rational::from_ratio(1, 100).map_or_else(Quantity::zero, Quantity::number)
 }
 
 impl PassiveTorques {
-    /// The torques that a link gives.
+    /// Reads the passive torques from a link's properties.
     pub(super) fn of(given: &GivenProperties) -> Self {
         let spring = given.get("spring");
         let rest = match spring.is_zero() {
@@ -132,7 +133,7 @@ impl PassiveTorques {
         }
     }
 
-    /// The torques that keep the energy: the spring alone.
+    /// Returns the torques without friction and drag: the spring alone, which conserves energy.
     #[must_use]
     pub fn frictionless(&self) -> Self {
         Self {
@@ -140,7 +141,7 @@ impl PassiveTorques {
             rest: self.rest.clone(),
             friction: Quantity::zero(),
             drag: Quantity::zero(),
-            laws: FrictionPlace::ALL.map(|_| FrictionLaw {
+            laws: FrictionContact::ALL.map(|_| FrictionLaw {
                 coulomb: Quantity::zero(),
                 quadratic: Quantity::zero(),
                 width: Quantity::integer(1),
@@ -155,20 +156,20 @@ impl PassiveTorques {
 
     /// Returns true if friction acts in the link's pivot.
     pub fn has_friction(&self) -> bool {
-        !self.friction.is_zero() || !self.law(FrictionPlace::Joint).is_none()
+        !self.friction.is_zero() || !self.law(FrictionContact::Joint).is_none()
     }
 
-    /// Returns true if the link drags at the ground.
+    /// Returns true if the link has drag against the ground.
     pub fn has_drag(&self) -> bool {
-        !self.drag.is_zero() || !self.law(FrictionPlace::Ground).is_none()
+        !self.drag.is_zero() || !self.law(FrictionContact::Ground).is_none()
     }
 
-    /// Returns true if the joint has a torque of its own.
+    /// Returns true if the joint has friction or a spring.
     pub fn has_joint_torque(&self) -> bool {
         self.has_friction() || !self.spring.is_zero()
     }
 
-    /// Torques of so many links that turn as one.
+    /// Multiplies the torques by the number of links that move as one.
     pub(super) fn times(&mut self, count: usize) {
         for value in [&mut self.friction, &mut self.drag, &mut self.spring] {
             *value = value.times(count);
@@ -176,8 +177,8 @@ impl PassiveTorques {
         self.laws.iter_mut().for_each(|law| law.times(count));
     }
 
-    /// Takes over the drag of links that do not turn by themselves. False where its width
-    /// is another one.
+    /// Adds the drag of links that are locked to this one. Returns false if their smoothing width
+    /// differs from that of this link.
     pub(super) fn take_drag(&mut self, other: &Self, count: usize) -> bool {
         let mut other = other.clone();
         other.times(count);
@@ -194,7 +195,7 @@ impl PassiveTorques {
     }
 }
 
-/// The properties that are among the known ones, each once; others go to `report`.
+/// Returns the properties with known names, each once; reports unknown and repeated ones.
 pub(super) fn known_once<'c>(
     properties: &'c [Property],
     known: &[&'static Dimension],
@@ -226,7 +227,7 @@ pub(super) fn known_once<'c>(
     found
 }
 
-/// Checks that what is at rest is a spring, whose stiffness has this unit.
+/// Reports `rest` without a spring. `unit` is the unit of the spring's stiffness.
 pub(super) fn check_rest(
     properties: &[Property],
     owner: &str,
@@ -241,7 +242,7 @@ pub(super) fn check_rest(
     }
 }
 
-/// Checks that a rest angle is that of a spring, and a width that of a law.
+/// Reports a rest angle without a spring, and a smoothing width without a friction law.
 pub(super) fn check_idle(properties: &[Property], owner: &str, report: &mut Faults) {
     check_rest(properties, owner, "N m", report);
     let find = |name: &str| properties.iter().find(|p| p.key() == name);

@@ -1,4 +1,4 @@
-//! Links whose motion the caller states at each call.
+//! Links whose motion the caller prescribes at each call.
 
 use proc_macro2::Ident;
 
@@ -8,7 +8,7 @@ use super::{LinkId, PrescribedSet};
 use crate::description::PrescribedClause;
 use crate::report::{Faults, OutputMessage, TreeMessage, nearest};
 
-/// Names of the links of a tree, by which clauses call them.
+/// Names of the links of a tree, as clauses use them.
 pub(super) struct LinkNames<'a> {
     names: Vec<&'a str>,
     pub(super) layout: Layout,
@@ -21,15 +21,15 @@ impl<'a> LinkNames<'a> {
         Self { names, layout }
     }
 
-    /// The link of that name; a name that no link has goes to `report`.
+    /// Returns the link of the given name; reports a name that no link has.
     pub(super) fn find(&self, link: &Ident, report: &mut Faults) -> Option<LinkId> {
         let name = link.to_string();
         let place = match self.layout {
             Layout::Generations { branching, .. } => of_generations(&name, &self.names, branching),
-            _ => self.names.iter().position(|known| *known == name),
+            Layout::Unrolled | Layout::Links => self.names.iter().position(|known| *known == name),
         };
         if place.is_none() {
-            // A generation's name alone is no link's.
+            // If links branch, the name of a generation is not the name of a link.
             let branches = matches!(self.layout, Layout::Generations { branching: 2.., .. });
             let copies = usize::from(branches);
             let numbered = self.names.iter().enumerate();
@@ -44,7 +44,7 @@ impl<'a> LinkNames<'a> {
     }
 }
 
-/// Finds the links of each clause; what is wrong goes to `report`.
+/// Finds the links of each clause about prescribed motions. Adds mistakes to `report`.
 pub(super) fn resolve_prescribed(
     clauses: &[PrescribedClause],
     names: &LinkNames<'_>,
@@ -79,7 +79,7 @@ pub(super) fn resolve_prescribed(
             members: written,
             links: found,
         };
-        // Nothing of it was readable, which is reported.
+        // No link could be read, which has been reported.
         if set.links.is_empty() {
             continue;
         }
@@ -93,9 +93,9 @@ pub(super) fn resolve_prescribed(
     sets
 }
 
-/// The index in the whole tree of the link that has this name, that of its generation with
-/// the numbers of the copies that it is and hangs in: copy c under link i of a generation
-/// of n links is number c n + i of the next one.
+/// Returns the index in the whole tree of the link with this name. The name is that of its
+/// generation, followed by the numbers of the copies on the path to it, as in `_2_1`. Copy c under
+/// link i of a generation of n links has the number c n + i in the next generation.
 fn of_generations(name: &str, generations: &[&str], branching: usize) -> Option<usize> {
     let (mut start, mut count) = (0, 1);
     for (generation, stem) in generations.iter().enumerate() {
@@ -116,7 +116,8 @@ fn of_generations(name: &str, generations: &[&str], branching: usize) -> Option<
     None
 }
 
-/// So many numbers as in `_2_1`, counted from 0.
+/// Parses a suffix of exactly `numbers` copy numbers, as in `_2_1`. The result counts from 0;
+/// `None` if the suffix is different.
 fn copies(suffix: &str, numbers: usize, branching: usize) -> Option<Vec<usize>> {
     let mut parts = suffix.split('_');
     if parts.next() != Some("") {

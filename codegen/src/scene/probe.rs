@@ -1,17 +1,17 @@
-//! The probe of a value: is it zero whatever its variables and parameters are? It is
-//! tried at a few points in numbers, since the algebra comes later and may not divide
-//! by zero.
+//! Test whether a value is identically zero for all values of its variables and parameters. It is
+//! evaluated numerically at a few points, because the computer algebra comes later and must not
+//! divide by zero.
 
 use super::observed::{Function, Observed, ObservedAtom};
 use super::{Quantity, QuantityAtom, RationalExpression};
 use crate::exact::Rational;
 
-/// Points to try. A value that is not identically zero vanishes at all of them
-/// only if someone looked for that.
+/// Seeds of the points. A value that vanishes at all of them is identically zero, unless it was
+/// constructed on purpose.
 const POINTS: [u64; 3] = [1, 2, 3];
 
-/// A value and the largest absolute value met on the way, with which its
-/// rounding error grows.
+/// A value, and the largest absolute intermediate value, to which its rounding error is
+/// proportional.
 #[derive(Clone, Copy)]
 struct Probe {
     value: f64,
@@ -69,7 +69,7 @@ impl Probe {
                 size,
             },
             Function::Cos => Self::leaf(value.cos()),
-            // Of either sign: only whether it is zero matters.
+            // The argument may be negative: the test only asks if the root is zero.
             Function::Sqrt => Self {
                 value: value.abs().sqrt(),
                 size: size.sqrt(),
@@ -82,7 +82,7 @@ impl Probe {
     }
 }
 
-/// The probe of an expression, given those of its atoms.
+/// Evaluates an expression, given the values of its operands.
 fn probe<A>(expression: &RationalExpression<A>, atom: &impl Fn(&A) -> Probe) -> Probe {
     let at = |part: &RationalExpression<A>| probe(part, atom);
     match expression {
@@ -122,8 +122,8 @@ impl Observed {
 }
 
 impl Quantity {
-    /// Returns true if the value is 0 whatever its parameters are: within rounding at
-    /// all points, and exactly at one more.
+    /// Returns true if the value is 0 for all values of its parameters: within rounding at all
+    /// points, and exactly at one more.
     pub(super) fn vanishes(&self) -> bool {
         POINTS.iter().all(|&point| self.probe(point).is_zero())
             && self.exact_probe().is_some_and(|value| value.is_zero())
@@ -138,8 +138,8 @@ impl Quantity {
         })
     }
 
-    /// The value for one choice of the parameters, of twenty bits and more each; None
-    /// where it has none, or one with too many digits.
+    /// Returns the exact value for one choice of the parameters, each with at least twenty bits;
+    /// `None` if the value is undefined or has too many digits.
     fn exact_probe(&self) -> Option<Rational> {
         let at = |part: &Self| part.exact_probe();
         match self {
@@ -161,8 +161,7 @@ impl Quantity {
     }
 }
 
-/// A number between 0.5 and 1.5 that depends on the name and the point
-/// (FNV-1a).
+/// Returns a number between 0.5 and 1.5, derived from the name and the point by the FNV-1a hash.
 fn number(name: &str, point: u64) -> f64 {
     let hash = name
         .bytes()

@@ -1,5 +1,5 @@
-//! The parentheses of a link: which properties there are, which are missing,
-//! and the body that follows.
+//! Properties in the parentheses of a link: reports unknown and missing ones, and computes the
+//! body.
 
 use super::bodies::{Body, BodyShape, COMMON, Condition, Dimension, GivenProperties, PLAIN};
 use super::names::motion;
@@ -10,30 +10,30 @@ use super::{Offset, Quantity, Sign};
 use crate::description::{Node, Property, Value};
 use crate::report::{Faults, SyntaxMessage, TreeMessage, nearest};
 
-/// The properties of a link or rule, evaluated.
+/// Evaluated properties of a link or rule.
 pub(super) struct Properties {
-    /// The body; a stand-in after an error.
+    /// The body; a placeholder after an error.
     pub(super) body: Body,
-    /// The rule, where there is one.
+    /// The generation rule, if the node is a rule.
     pub(super) rule: Option<GenerationRule>,
-    /// All properties that are given, the body's included.
+    /// All given properties, including those of the body.
     pub(super) given: GivenProperties,
     kind: LinkKind,
 }
 
-/// Properties that can be a pair.
+/// Properties whose value can be a pair.
 const POINTS: &[&str] = &["com", "joint", "at"];
 
-/// Properties that a link may and must have.
+/// Required and optional properties of a kind of link.
 struct LinkKind {
-    /// Name of the kind: "a link", "a `rod`".
+    /// Name of the kind in messages: "a link", "a `rod`".
     text: String,
     shape: Option<&'static BodyShape>,
     is_rule: bool,
 }
 
 impl Properties {
-    /// Reads what a link or rule says of itself.
+    /// Reads the properties of a link or rule.
     pub(super) fn read(
         node: &Node,
         is_rule: bool,
@@ -64,7 +64,7 @@ impl Properties {
             report.error(node.name.span(), message);
         }
         let kind = LinkKind::new(shape.and_then(Result::ok), is_rule);
-        // The properties of an unknown shape are unknown too.
+        // If the shape is unknown, its properties are too.
         let given = if fault {
             None
         } else {
@@ -78,17 +78,18 @@ impl Properties {
             count: counts.count.unwrap_or(1),
             branching: counts.branching.unwrap_or(1),
             code: counts.code,
+            open: counts.is_open(report),
         });
         Self {
-            body: body.unwrap_or_else(stand_in),
+            body: body.unwrap_or_else(placeholder),
             rule,
             given,
             kind,
         }
     }
 
-    /// Properties of a generation of the rule, counted from 0; `None` after reporting what
-    /// is wrong.
+    /// Returns the properties of generation number `generation` (from 0) of the rule; `None` after
+    /// reporting a mistake.
     pub(super) fn of_generation(
         &self,
         generation: usize,
@@ -119,9 +120,8 @@ impl Properties {
     }
 }
 
-/// A body for a link that has none because of an error, so that its children
-/// can be looked at.
-fn stand_in() -> Body {
+/// Returns a placeholder body for a link with an error, so that its children can still be checked.
+fn placeholder() -> Body {
     let origin = Offset {
         along: Quantity::zero(),
         lateral: Quantity::zero(),
@@ -149,15 +149,15 @@ impl LinkKind {
         }
     }
 
-    /// All quantities that there are, required ones first.
+    /// Returns all properties with a value, required ones first.
     fn dimensions(&self) -> impl Iterator<Item = &'static Dimension> {
         let own = self.shape.map_or(PLAIN, |shape| shape.dimensions);
         let ratios = self.is_rule.then(|| ratios(own));
         own.iter().chain(COMMON).chain(ratios.into_iter().flatten())
     }
 
-    /// The names of all properties outside parentheses, or of those in the parentheses
-    /// of a law.
+    /// Returns the names of all properties outside a friction law (`law` is `None`), or of those in
+    /// the parentheses of this law.
     fn known(&self, law: Option<&str>) -> Vec<&'static str> {
         let counts = if self.is_rule && law.is_none() {
             COUNTS
@@ -174,8 +174,7 @@ impl LinkKind {
         known
     }
 
-    /// The values of all quantities, in the order written; `None` after
-    /// reporting what is wrong.
+    /// Evaluates all properties in the order written; returns `None` after reporting a mistake.
     fn evaluate(
         &self,
         node: &Node,
@@ -205,7 +204,7 @@ impl LinkKind {
                 sound = false;
                 let (message, meant) = self.unknown(name.clone());
                 report.error(property.name.span(), message);
-                // The property that was probably meant is misspelt, not missing.
+                // A property that is misspelt is not missing.
                 seen.extend(meant.map(str::to_owned));
             }
             seen.push(name);
@@ -221,7 +220,8 @@ impl LinkKind {
         sound.then_some(given)
     }
 
-    /// The message about an unknown property, and the one probably meant.
+    /// Returns the message about an unknown property, and the known name that the user probably
+    /// meant.
     fn unknown(&self, name: String) -> (TreeMessage, Option<&'static str>) {
         let known = self.known(name.split_once('(').map(|(law, _)| law));
         let in_law = format!("({name})");
@@ -238,7 +238,7 @@ impl LinkKind {
         (message, nearest)
     }
 
-    /// The message about a missing property.
+    /// Returns the message about a missing property.
     fn missing(&self, name: &'static str, node: &Node) -> TreeMessage {
         TreeMessage::MissingProperty {
             name,
@@ -247,8 +247,8 @@ impl LinkKind {
         }
     }
 
-    /// Checks the properties of the last generation of a rule: what becomes smaller or
-    /// larger from one to the next is smallest or largest there.
+    /// Checks the properties of the last generation of a rule. Properties that grow or shrink from
+    /// generation to generation have their largest or smallest value there.
     fn accept(
         &self,
         given: &GivenProperties,
@@ -276,7 +276,7 @@ impl LinkKind {
         Some(())
     }
 
-    /// The body, and its shape possible.
+    /// Computes the body and checks that its shape is possible.
     fn checked_body(
         &self,
         given: &GivenProperties,
@@ -295,11 +295,11 @@ impl LinkKind {
         self.body(given, node, report)
     }
 
-    /// The body: that of the shape, unless the link says otherwise.
+    /// Computes the body from the shape; properties of the link override those of the shape.
     fn body(&self, given: &GivenProperties, node: &Node, report: &mut Faults) -> Option<Body> {
         let mut body = match self
             .shape
-            .map_or_else(|| Ok(stand_in()), |shape| (shape.body)(given))
+            .map_or_else(|| Ok(placeholder()), |shape| (shape.body)(given))
         {
             Ok(body) => body,
             Err(error) => {
@@ -324,7 +324,7 @@ impl LinkKind {
     }
 }
 
-/// The value of a property of an owner of that name.
+/// Evaluates a property; `owner` names the link in messages.
 pub(super) fn evaluate(
     dimension: &Dimension,
     property: &Property,
@@ -368,12 +368,12 @@ pub(super) fn evaluate(
             report.error(property.name.span(), TreeMessage::NotAPoint { name });
             None
         }
-        // Reported with the copies.
+        // Reported together with the copies.
         Value::Each { .. } => None,
     }
 }
 
-/// A property as one says it.
+/// Returns the name of a property as messages print it.
 fn in_words(name: &str) -> String {
     match name {
         "com" => "centre of mass".to_owned(),

@@ -1,20 +1,19 @@
-//! Values of a scene: exact numbers, parameters, and what is formed of them.
+//! Values of a scene: exact numbers, parameters and expressions of them.
 
 use self::QuantityAtom::Exact;
 use super::{ParameterId, RationalExpression};
 use crate::exact::{ExactError, Rational};
 
-/// A value in SI units, known exactly or in terms of parameters.
+/// A value in SI units, known exactly or as an expression of parameters.
 ///
-/// The functions that build one fold: an expression of literals only is always one
-/// number; a sum or product holds at most one number, which comes first; nothing is
-/// multiplied by 0 or 1 or has 0 added; a sum that is 0 for all parameters is 0; nothing
-/// is divided by a number; no power is 0 or 1; no number has a
-/// [`Negative`](RationalExpression::Negative) around it. Members keep the order in which
-/// they were written.
+/// The constructors fold constants: an expression of literals is one number; a sum or product
+/// contains at most one number, which comes first; there are no factors 0 or 1 and no summand 0; a
+/// sum that is 0 for all parameters is 0; nothing is divided by a number; no power is 0 or 1; no
+/// number has a [`Negative`](RationalExpression::Negative) around it. Members keep the order in
+/// which they were written.
 pub type Quantity = RationalExpression<QuantityAtom>;
 
-/// What quantities are formed of.
+/// Operands of quantities.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
 pub enum QuantityAtom {
     /// A number.
@@ -24,27 +23,27 @@ pub enum QuantityAtom {
 }
 
 impl Quantity {
-    /// A number.
+    /// Creates the value of an exact number.
     pub fn number(value: Rational) -> Self {
         Self::Atom(Exact(value))
     }
 
-    /// A parameter.
+    /// Creates the value of a parameter.
     pub fn parameter(id: ParameterId) -> Self {
         Self::Atom(QuantityAtom::Parameter(id))
     }
 
-    /// The number 0.
+    /// Returns the number 0.
     pub fn zero() -> Self {
         Self::number(Rational::zero())
     }
 
-    /// A whole number.
+    /// Returns an integer as a value.
     pub fn integer(value: i64) -> Self {
         Self::number(Rational::from(value))
     }
 
-    /// The value where it is known exactly.
+    /// Returns the exact value, or `None` if it depends on parameters.
     pub fn exact(&self) -> Option<&Rational> {
         match self {
             Self::Atom(Exact(value)) => Some(value),
@@ -52,13 +51,13 @@ impl Quantity {
         }
     }
 
-    /// Returns true if the value is 0 whatever the parameters are.
+    /// Returns true if the value is 0 for all values of the parameters.
     pub fn is_zero(&self) -> bool {
         self.exact().is_some_and(Rational::is_zero)
     }
 
-    /// Returns true if a minus stands before all of the value: for a negative number, and
-    /// for what is negative where all factors are positive, as `-g` and `-2 * g - h`.
+    /// Returns true if a minus sign precedes the whole value: a negative number, or an expression
+    /// such as `-g` and `-2 * g - h`, which is negative if all parameters are positive.
     pub fn is_written_negative(&self) -> bool {
         match self {
             Self::Atom(Exact(value)) => value.is_negative(),
@@ -70,12 +69,12 @@ impl Quantity {
         }
     }
 
-    /// The sum of `members`.
+    /// Returns the sum of `members`.
     pub fn sum(members: impl IntoIterator<Item = Self>) -> Self {
         Self::sum_of(members.into_iter().collect())
     }
 
-    /// Compiled once, whatever the iterator.
+    /// Adds the members. Takes a `Vec` so that the function is compiled only once.
     fn sum_of(members: Vec<Self>) -> Self {
         let mut constant = Rational::zero();
         let mut rest = Vec::new();
@@ -98,12 +97,12 @@ impl Quantity {
         }
     }
 
-    /// The product of `factors`.
+    /// Returns the product of `factors`.
     pub fn product(factors: impl IntoIterator<Item = Self>) -> Self {
         Self::product_of(factors.into_iter().collect())
     }
 
-    /// Compiled once, whatever the iterator.
+    /// Multiplies the factors. Takes a `Vec` so that the function is compiled only once.
     fn product_of(factors: Vec<Self>) -> Self {
         let mut constant = Rational::one();
         let mut rest = Vec::new();
@@ -135,7 +134,7 @@ impl Quantity {
         Self::collected(rest, || Self::integer(1), Self::Product)
     }
 
-    /// A sum or product of what folding left over.
+    /// Combines the members that remain after folding constants into a sum or a product.
     fn collected(
         mut members: Vec<Self>,
         empty: impl FnOnce() -> Self,
@@ -147,14 +146,14 @@ impl Quantity {
         }
     }
 
-    /// Returns a multiple of the value.
+    /// Returns `count` times the value.
     pub(super) fn times(&self, count: usize) -> Self {
         // Counts are below 2^32, see `layout::MOST`.
         let count = Self::integer(i64::try_from(count).unwrap_or(i64::MAX));
         Self::product([count, self.clone()])
     }
 
-    /// The opposite.
+    /// Returns the value with the opposite sign.
     pub fn negative(self) -> Self {
         match self {
             Self::Atom(Exact(value)) => Self::number(-value),
@@ -163,7 +162,7 @@ impl Quantity {
         }
     }
 
-    /// The quotient `self / divisor`.
+    /// Returns the quotient `self / divisor`.
     ///
     /// # Errors
     /// [`ExactError::DivisionByZero`] if `divisor` is known to be 0.
@@ -180,7 +179,7 @@ impl Quantity {
         }
     }
 
-    /// The power `self ^ exponent`; `x ^ 0` is 1.
+    /// Returns the power `self ^ exponent`; `x ^ 0` is 1.
     ///
     /// # Errors
     /// [`ExactError::DivisionByZero`] for a negative power of a known 0,
@@ -195,7 +194,7 @@ impl Quantity {
                 Some(product) => base.power(product),
                 None => Err(ExactError::TooLong),
             },
-            // Numbers among the factors become one.
+            // Fold the powers of the numbers among the factors.
             (Self::Product(factors), _) => {
                 let powers = factors.into_iter().map(|factor| factor.power(exponent));
                 Ok(Self::product(powers.collect::<Result<Vec<_>, _>>()?))

@@ -1,15 +1,15 @@
-//! Rational expressions: what values, observables and functions of time have in common.
+//! Rational expressions, the common form of values, observables and functions of time.
 
-/// Sums, products, quotients and integer powers of atoms, in the order in which they were
+/// Sums, products, quotients and integer powers of operands, in the order in which they were
 /// written.
 ///
-/// What the atoms are is the meaning of `A`: numbers and parameters for a
-/// [`Quantity`](super::Quantity), what moves for an [`Observed`](super::Observed), time for a
-/// [`Signal`](super::Signal). Functions of expressions are atoms too. What holds beyond that
-/// is said there, and kept by what builds them. No divisor is identically zero.
+/// The type `A` of the operands gives the expression its meaning: numbers and parameters for a
+/// [`Quantity`](super::Quantity), moving variables for an [`Observed`](super::Observed), the time
+/// for a [`Signal`](super::Signal). Functions of expressions are operands too. Each of these types
+/// documents further invariants, which its constructors keep. No divisor is identically zero.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
 pub enum RationalExpression<A> {
-    /// What is none of the others.
+    /// An operand, such as a number, a parameter or the time.
     Atom(A),
     /// A sum of two or more members.
     Sum(Vec<Self>),
@@ -19,12 +19,12 @@ pub enum RationalExpression<A> {
     Quotient(Box<Self>, Box<Self>),
     /// An integer power.
     Power(Box<Self>, i32),
-    /// The opposite.
+    /// The expression with the opposite sign.
     Negative(Box<Self>),
 }
 
 impl<A> RationalExpression<A> {
-    /// The atoms, in the order written.
+    /// Returns the operands, in the order written.
     pub fn atoms(&self) -> Vec<&A> {
         match self {
             Self::Atom(atom) => vec![atom],
@@ -34,7 +34,7 @@ impl<A> RationalExpression<A> {
         }
     }
 
-    /// The expression with another one in the place of each atom.
+    /// Returns the expression with every operand replaced by another expression.
     pub fn substitute<B>(
         &self,
         replacement: &impl Fn(&A) -> RationalExpression<B>,

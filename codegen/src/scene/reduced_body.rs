@@ -1,13 +1,14 @@
-//! Two bodies that are one: mass, centre of mass and inertia combined exactly.
+//! Combines two bodies that are fixed to each other into one, with exact mass, centre of mass and
+//! inertia.
 
 use super::bodies::Body;
 use super::template::Template;
 use super::{Offset, Quantity};
 use crate::exact::{ExactError, Rational};
 
-/// A point of a link that is turned by `angle` about `pivot`, seen from the link that
-/// it hangs from.
-pub(super) fn turned(point: &Offset, angle: &Rational, pivot: &Offset) -> Offset {
+/// Converts a point of a link to the frame of its parent; the link is fixed at `angle` (rad) and
+/// hangs at `pivot`.
+pub(super) fn in_parent_frame(point: &Offset, angle: &Rational, pivot: &Offset) -> Offset {
     let (sine, cosine) = angle.sine_and_cosine();
     let (sine, cosine) = (Quantity::number(sine), Quantity::number(cosine));
     let times = |a: &Quantity, b: &Quantity| Quantity::product([a.clone(), b.clone()]);
@@ -26,13 +27,14 @@ pub(super) fn turned(point: &Offset, angle: &Rational, pivot: &Offset) -> Offset
     }
 }
 
-/// The body of `parent` and all copies of `link` that are fixed to it at `angle`.
+/// Returns the combined body of `parent` and all copies of `link`, which are fixed to the parent at
+/// `angle` (rad).
 ///
 /// # Errors
-/// Numbers that become too long.
+/// Fails if an exact number becomes too long.
 pub(super) fn weld(parent: &Body, link: &Template, angle: &Rational) -> Result<Body, ExactError> {
     let added = link.body.mass.times(link.copies);
-    let at = turned(&link.body.com, angle, &link.pivot);
+    let at = in_parent_frame(&link.body.com, angle, &link.pivot);
     let mass = Quantity::sum([parent.mass.clone(), added.clone()]);
     let inertia = Quantity::sum([parent.inertia.clone(), link.body.inertia.times(link.copies)]);
     let joint = parent.joint.clone();
@@ -54,7 +56,8 @@ pub(super) fn weld(parent: &Body, link: &Template, angle: &Rational) -> Result<B
     };
     let along = difference(&parent.com.along, &at.along).power(2)?;
     let lateral = difference(&parent.com.lateral, &at.lateral).power(2)?;
-    // Steiner for both at once: the reduced mass, about the common centre.
+    // Parallel-axis theorem for both bodies at once: the reduced mass, about the common centre of
+    // mass.
     let reduced = product(&parent.mass, &added).divided_by(mass.clone())?;
     let apart = Quantity::product([reduced, Quantity::sum([along, lateral])]);
     Ok(Body {

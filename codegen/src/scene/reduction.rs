@@ -1,17 +1,17 @@
-//! Exact reductions: links that need no coordinate of their own.
+//! Exact reductions of a tree: descriptions of the same motion with fewer coordinates.
 //!
-//! Both are steps from templates to templates. What hangs from a joint that does not
-//! move is one body with the link above; identical copies that move alike are one link
-//! of as many times the mass, because mass, inertia, friction, drag and springs enter
-//! the Lagrangian and the dissipation as sums over links of equal angle and velocity.
-//! Nothing is approximated: the motion of the reduced tree is one of the whole tree.
+//! Both reductions convert templates to templates. A link with a locked joint is combined with its
+//! parent into one body. Identical copies in phase (of equal angle) become one link of the total
+//! mass, because mass, inertia, friction, drag and springs enter the Lagrangian and the dissipation
+//! as sums over links. Nothing is approximated: every motion of the reduced tree is a motion of the
+//! whole tree.
 
 use proc_macro2::Ident;
 
 use super::expand::running_totals;
-use super::layout::{self, Asked, Layout};
+use super::layout::{self, Layout, RequestedOutputs};
 use super::passive::PassiveTorques;
-use super::reduced_body::{turned, weld};
+use super::reduced_body::{in_parent_frame, weld};
 use super::template::{Template, TreeBuilder};
 use super::values::{Usage, Values};
 use super::{NodeMotion, Quantity, Reduction, Sign, WholeNode, WholeOrder};
@@ -21,12 +21,12 @@ use crate::report::{
     Faults, OutputMessage, SizeMessage, TreeMessage, UnequalUse, ValueMessage, nearest,
 };
 
-/// Makes the reductions that the description names and returns how the links that are
-/// left stand for those of the whole tree; `None` without reductions and after an error.
+/// Applies the reductions that the description names. Returns the relation between the remaining
+/// links and those of the whole tree; `None` without reductions and after an error.
 pub(super) fn reduce(
     reductions: &Reductions,
     builder: &mut TreeBuilder,
-    asked: &Asked<'_>,
+    asked: &RequestedOutputs<'_>,
     report: &mut Faults,
 ) -> Option<Reduction> {
     if reductions.is_empty() {
@@ -46,7 +46,7 @@ pub(super) fn reduce(
         return None;
     }
     let locks = locks(&reductions.locked, templates, values, report);
-    let alike = alike(&reductions.in_phase, templates, report);
+    let in_phase = copies_in_phase(&reductions.in_phase, templates, report);
     if report.diagnostics().len() > before {
         return None;
     }
@@ -61,9 +61,9 @@ pub(super) fn reduce(
         return None;
     }
     let links = whole_links(&builder.templates, report)?;
-    let orbits = whole_orbits(&builder.templates, &locks, &alike);
+    let orbits = whole_orbits(&builder.templates, &locks, &in_phase);
     builder.whole = None;
-    merge(&mut builder.templates, &alike);
+    merge(&mut builder.templates, &in_phase);
     lock(&mut builder.templates, &locks, report)?;
     Some(Reduction {
         order,
@@ -72,7 +72,8 @@ pub(super) fn reduce(
     })
 }
 
-/// Angle, relative to its parent, of each template that is locked.
+/// Returns, for each template, the angle of its locked joint relative to the parent, in rad; `None`
+/// if the joint moves.
 fn locks(
     clauses: &[LockedClause],
     templates: &[Template],
@@ -114,7 +115,7 @@ fn locks(
     locks
 }
 
-/// The angle of a joint that does not move, a number.
+/// Reads the angle of a locked joint, which must be a number, in rad.
 fn locked_angle(
     written: &Expression,
     link: &str,
@@ -127,7 +128,7 @@ fn locked_angle(
         sign: Sign::Any,
     };
     let angle = values.evaluate(written, &usage, report)?;
-    // A turn more or less says nothing; a large angle is one in degrees.
+    // A full turn has no effect; a larger number was probably meant in degrees.
     let most = Rational::from(7);
     let angle = angle
         .exact()
@@ -138,9 +139,9 @@ fn locked_angle(
     angle.cloned()
 }
 
-/// For each template, true if its copies move alike.
-fn alike(nodes: &[Ident], templates: &[Template], report: &mut Faults) -> Vec<bool> {
-    let mut alike = vec![false; templates.len()];
+/// Returns, for each template, true if its copies move in phase.
+fn copies_in_phase(nodes: &[Ident], templates: &[Template], report: &mut Faults) -> Vec<bool> {
+    let mut in_phase = vec![false; templates.len()];
     for node in nodes {
         let name = node.to_string();
         let several = |template: &Template| template.copies > 1;
@@ -148,7 +149,7 @@ fn alike(nodes: &[Ident], templates: &[Template], report: &mut Faults) -> Vec<bo
             if !templates.iter().any(several) {
                 report.error(node.span(), TreeMessage::NothingInPhase { name });
             }
-            alike.fill(true);
+            in_phase.fill(true);
             continue;
         }
         let of_node = |template: &&Template| template.node == name;
@@ -163,20 +164,20 @@ fn alike(nodes: &[Ident], templates: &[Template], report: &mut Faults) -> Vec<bo
             report.error(node.span(), TreeMessage::NothingInPhase { name });
             continue;
         }
-        for (alike, template) in alike.iter_mut().zip(templates) {
-            if template.node == name && std::mem::replace(alike, true) {
+        for (in_phase, template) in in_phase.iter_mut().zip(templates) {
+            if template.node == name && std::mem::replace(in_phase, true) {
                 let name = name.clone();
                 report.error(node.span(), OutputMessage::DuplicateRequest { name });
                 break;
             }
         }
     }
-    alike
+    in_phase
 }
 
-/// Order of the links of the whole tree: that of the same description without
-/// reductions.
-fn order(builder: &TreeBuilder, asked: &Asked<'_>) -> WholeOrder {
+/// Returns the order of the links in the whole tree, which is the order that the same description
+/// has without reductions.
+fn order(builder: &TreeBuilder, asked: &RequestedOutputs<'_>) -> WholeOrder {
     let Some(rule) = builder.whole else {
         return WholeOrder::DepthFirst;
     };
@@ -186,7 +187,7 @@ fn order(builder: &TreeBuilder, asked: &Asked<'_>) -> WholeOrder {
     }
 }
 
-/// Number of links of the whole tree.
+/// Returns the number of links of the whole tree.
 fn whole_links(templates: &[Template], report: &mut Faults) -> Option<usize> {
     let links = *running_totals(templates).last()?;
     if links > layout::MOST {
@@ -198,16 +199,16 @@ fn whole_links(templates: &[Template], report: &mut Faults) -> Option<usize> {
     Some(links)
 }
 
-/// Nearest link above that is not locked, and the number of a link's copies that move by
-/// themselves there.
+/// Returns the nearest ancestor that is not locked (`None` for the root), and the number of
+/// independently moving copies of the link below this ancestor.
 fn holder(
     templates: &[Template],
     locks: &[Option<Rational>],
-    alike: &[bool],
+    in_phase: &[bool],
     index: usize,
 ) -> (Option<usize>, usize) {
     let apart = |index: usize| {
-        if alike[index] {
+        if in_phase[index] {
             1
         } else {
             templates[index].copies
@@ -221,15 +222,16 @@ fn holder(
     (above, copies)
 }
 
-/// Motion of each orbit of the whole tree in terms of the reduced one's links, which
-/// stand depth first.
+/// Returns the motion of each node of the whole tree, given by the links of the reduced tree, which
+/// are in depth-first order.
 fn whole_orbits(
     templates: &[Template],
     locks: &[Option<Rational>],
-    alike: &[bool],
+    in_phase: &[bool],
 ) -> Vec<WholeNode> {
-    let holder = |index: usize| holder(templates, locks, alike, index);
-    // Links of the reduced subtree of one copy; where the whole subtree ends.
+    let holder = |index: usize| holder(templates, locks, in_phase, index);
+    // `sizes`: number of reduced links below one copy, itself included; `ends`: end of the whole
+    // subtree.
     let mut sizes = vec![1; templates.len()];
     let mut ends: Vec<usize> = (1..=templates.len()).collect();
     for (index, template) in templates.iter().enumerate().rev() {
@@ -240,7 +242,7 @@ fn whole_orbits(
             sizes[above] += copies * sizes[index];
         }
     }
-    // Where the next reduced subtree begins, from the link that it hangs from.
+    // Index at which the next reduced subtree begins, relative to the link that it hangs from.
     let mut next = vec![1; templates.len()];
     let mut orbits = Vec::with_capacity(templates.len());
     for (index, template) in templates.iter().enumerate() {
@@ -264,7 +266,7 @@ fn whole_orbits(
         orbits.push(WholeNode {
             name: template.name.clone(),
             copies: template.copies,
-            in_phase: alike[index],
+            in_phase: in_phase[index],
             end: ends[index],
             motion,
         });
@@ -272,13 +274,13 @@ fn whole_orbits(
     orbits
 }
 
-/// Makes locked links parts of those that they hang from.
+/// Combines locked links with their parents.
 fn lock(
     templates: &mut Vec<Template>,
     locks: &[Option<Rational>],
     report: &mut Faults,
 ) -> Option<()> {
-    // From the leaves up, so that a locked link below a locked one is part of it before.
+    // From the leaves upwards, so that of two locked links the lower one is combined first.
     for index in (0..templates.len()).rev() {
         let Some(angle) = &locks[index] else {
             continue;
@@ -288,11 +290,11 @@ fn lock(
         let parent = above.get_mut(link.parent?)?;
         for child in below.iter_mut().filter(|child| child.parent == Some(index)) {
             child.parent = link.parent;
-            child.pivot = turned(&child.pivot, angle, &link.pivot);
+            child.pivot = in_parent_frame(&child.pivot, angle, &link.pivot);
             child.copies = child.copies.saturating_mul(link.copies);
             let PassiveTorques { spring, rest, .. } = &mut child.passive;
             if !spring.is_zero() {
-                // The spring's angle counts from the link that is now a part of another.
+                // The spring's angle is now measured from the link that holds this one.
                 *rest = Quantity::sum([rest.clone(), Quantity::number(angle.clone())]);
             }
         }
@@ -326,21 +328,28 @@ fn lock(
     Some(())
 }
 
-/// Makes copies that move alike one link.
-fn merge(templates: &mut [Template], alike: &[bool]) {
+/// Replaces identical copies that move in phase by one link.
+fn merge(templates: &mut [Template], in_phase: &[bool]) {
     let mut weights: Vec<usize> = Vec::with_capacity(templates.len());
-    for (template, alike) in templates.iter_mut().zip(alike) {
+    for (template, in_phase) in templates.iter_mut().zip(in_phase) {
         let above = template.parent.and_then(|parent| weights.get(parent));
         let mut weight = above.copied().unwrap_or(1);
-        if *alike {
+        if *in_phase {
             weight = weight.saturating_mul(template.copies);
             template.copies = 1;
         }
         weights.push(weight);
-        let Template { body, passive, .. } = template;
-        passive.times(weight);
+        template.take_copies(weight);
+    }
+}
+
+impl Template {
+    /// Makes the link one that represents this many copies in phase.
+    pub(super) fn take_copies(&mut self, copies: usize) {
+        let Self { body, passive, .. } = self;
+        passive.times(copies);
         for value in [&mut body.mass, &mut body.inertia] {
-            *value = value.times(weight);
+            *value = value.times(copies);
         }
     }
 }

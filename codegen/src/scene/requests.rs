@@ -1,5 +1,4 @@
-//! Requests: the outputs that are asked for, and the check that they can be
-//! derived for the tree.
+//! Requests: reads the requested outputs, and checks that they can be derived for the tree.
 
 use std::ops::RangeInclusive;
 
@@ -11,22 +10,10 @@ use super::{BudgetRequest, LinkId, Requests, TransferRequest};
 use crate::description::{Request, RequestForm};
 use crate::report::{Faults, OutputMessage, UnequalUse, nearest};
 
-/// All outputs.
-const OUTPUTS: &[&str] = &[
-    "energies",
-    "momenta",
-    "modes",
-    "symmetric",
-    "transfer",
-    "budget",
-    "taylor",
-    "positions",
-    "transverse",
-    "small",
-    "forces",
-];
+/// Outputs that may have forms in parentheses.
+const WITH_FORMS: [&str; 3] = ["transfer", "budget", "small"];
 
-/// All forms of the budget.
+/// Names of all forms of the energy budget.
 const BUDGET_FORMS: &[&str] = &[
     "canonical",
     "parseval",
@@ -39,32 +26,35 @@ const BUDGET_FORMS: &[&str] = &[
     "small",
 ];
 
-/// All forms of the transfer.
+/// Names of all forms of the energy transfer.
 const FORMS: &[&str] = &["angle", "amplitude", "exact"];
 
-/// Orders in the difference angles that are derived; 1 is the paper's.
+/// Supported orders in the difference angles; the paper uses order 1.
 const ANGLE_ORDERS: RangeInclusive<u32> = 1..=8;
 
-/// Orders in the amplitude that are derived; 2 is the lowest there is.
+/// Supported orders in the amplitude; the expansion begins with order 2.
 const AMPLITUDE_ORDERS: RangeInclusive<u32> = 2..=8;
 
-/// The requests, and the places of those that need identical siblings.
+/// The requests, and the spans of those that require identical siblings.
 pub(super) struct Resolved {
     pub(super) requests: Requests,
     symmetric: Option<Span>,
     transfer: Option<Span>,
-    /// Place of the first order of the transfer that is written.
+    /// Span of the first order of the transfer in the source.
     transfer_order: Option<Span>,
     pub(super) budget: Option<Span>,
-    /// Place of `transverse`.
+    /// Span of `normal_form`.
+    pub(super) normal_form: Option<Span>,
+    /// Span of `transverse`.
     pub(super) transverse: Option<Span>,
-    /// Place of `small`, and the names of the sectors whose differences act back.
+    /// Span of the word `small`, and the names of the sectors (differences between copies) that act
+    /// back on the in-phase motion.
     pub(super) acting: Option<(Span, Vec<Ident>)>,
-    /// Names of the sectors whose differences are small in a budget.
+    /// Names of the sectors whose differences count as small in a budget.
     pub(super) small: Vec<Ident>,
 }
 
-/// Reads the requests; what is wrong goes to `report`.
+/// Reads the requests. Adds mistakes to `report`.
 pub(super) fn resolve_requests(requests: &[Request], report: &mut Faults) -> Resolved {
     let mut resolved = Resolved {
         requests: Requests::default(),
@@ -72,6 +62,7 @@ pub(super) fn resolve_requests(requests: &[Request], report: &mut Faults) -> Res
         transfer: None,
         transfer_order: None,
         budget: None,
+        normal_form: None,
         transverse: None,
         acting: None,
         small: Vec::new(),
@@ -88,30 +79,26 @@ pub(super) fn resolve_requests(requests: &[Request], report: &mut Faults) -> Res
             report.error(span, OutputMessage::DuplicateRequest { name: text });
             continue;
         }
-        let formless = !matches!(text.as_str(), "transfer" | "budget" | "small");
-        if forms.is_some() && formless && OUTPUTS.contains(&text.as_str()) {
-            report.error(span, OutputMessage::RequestForms { name: text.clone() });
-        }
         let wanted = &mut resolved.requests;
-        match text.as_str() {
-            "energies" => wanted.energies = true,
-            "momenta" => wanted.momenta = true,
-            "modes" => wanted.modes = true,
-            "taylor" => wanted.taylor = true,
-            "positions" => wanted.positions = true,
-            "transverse" => {
-                wanted.transverse = true;
-                resolved.transverse = Some(span);
+        if let Some(flag) = wanted.flag(&text) {
+            *flag = true;
+            if forms.is_some() {
+                report.error(span, OutputMessage::RequestForms { name: text.clone() });
             }
+            match text.as_str() {
+                "normal_form" => resolved.normal_form = Some(span),
+                "transverse" => resolved.transverse = Some(span),
+                "symmetric" => resolved.symmetric = Some(span),
+                _ => {}
+            }
+            seen.push(text);
+            continue;
+        }
+        match text.as_str() {
             "small" => {
                 wanted.transverse = true;
                 let names = acting(span, forms.as_deref(), *damaged, report);
                 resolved.acting = Some((span, names));
-            }
-            "forces" => wanted.forces = true,
-            "symmetric" => {
-                wanted.symmetric = true;
-                resolved.symmetric = Some(span);
             }
             "transfer" => {
                 wanted.transfer = Some(transfer(span, forms.as_deref(), *damaged, report));
@@ -125,16 +112,18 @@ pub(super) fn resolve_requests(requests: &[Request], report: &mut Faults) -> Res
                 resolved.budget = Some(span);
             }
             _ => {
-                let nearest = nearest(&text, OUTPUTS);
+                let flags = Requests::FLAGS.iter().map(|(name, _)| *name);
+                let outputs: Vec<&str> = flags.chain(WITH_FORMS).collect();
+                let nearest = nearest(&text, &outputs);
                 let name = text.clone();
                 report.error(span, OutputMessage::UnknownRequest { name, nearest });
             }
         }
         seen.push(text);
     }
-    // The transfer is stated in canonical symmetric coordinates, and so are
-    // truncated budgets.
+    // The transfer and truncated budgets are expressed in canonical symmetric coordinates.
     let wanted = &mut resolved.requests;
+    wanted.complete();
     let truncated = wanted
         .budget
         .as_ref()
@@ -146,18 +135,19 @@ pub(super) fn resolve_requests(requests: &[Request], report: &mut Faults) -> Res
     resolved
 }
 
-/// A form in parentheses behind an output.
+/// A form in the parentheses after an output.
 struct WrittenForm<'f> {
     text: String,
     order: Option<u32>,
-    /// Place of the name.
+    /// Span of the name.
     span: Span,
-    /// Place of the value, or else of the name.
+    /// Span of the value, or of the name if there is no value.
     place: Span,
     members: Option<&'f [Ident]>,
 }
 
-/// The forms that are written, each once: one may be asked for to several orders.
+/// Returns the requested forms, each once. A form may be written several times with different
+/// orders.
 fn written_forms<'f>(forms: &'f [RequestForm], report: &mut Faults) -> Vec<WrittenForm<'f>> {
     let mut written: Vec<WrittenForm<'f>> = Vec::new();
     for form in forms {
@@ -181,8 +171,8 @@ fn written_forms<'f>(forms: &'f [RequestForm], report: &mut Faults) -> Vec<Writt
     written
 }
 
-/// Takes a truncated form, of the orders in the angles or in the amplitude; false for another
-/// form.
+/// Reads a truncated form, `angle = n` or `amplitude = n`. Returns false if the form is another
+/// one.
 fn take_order(
     form: &WrittenForm<'_>,
     [angle, amplitude]: [&mut Vec<u32>; 2],
@@ -200,7 +190,7 @@ fn take_order(
     true
 }
 
-/// Reads the forms of the budget; all exact ones if none is named.
+/// Reads the requested forms of the budget; all exact forms if none are named.
 fn budget(
     span: Span,
     forms: Option<&[RequestForm]>,
@@ -275,7 +265,7 @@ fn budget(
     request
 }
 
-/// Reads the forms of the transfer; all of them if none is named.
+/// Reads the requested forms of the transfer; all forms if none are named.
 fn transfer(
     span: Span,
     forms: Option<&[RequestForm]>,
@@ -320,8 +310,8 @@ fn transfer(
     request
 }
 
-/// Checks that the tree has the identical siblings that the requests need. Leaves the forms
-/// of the transfer that hold between unequal copies where none is named.
+/// Checks that the tree has the identical siblings that the requests require. If no form of the
+/// transfer is named and copies differ, keeps only the forms that are valid for them.
 pub(super) fn check_symmetry(
     resolved: &mut Resolved,
     expansion: &ExpandedTree,
@@ -331,6 +321,7 @@ pub(super) fn check_symmetry(
         links,
         groups,
         orbits,
+        lineage: _,
     } = expansion;
     let unequal = orbits.iter().find(|orbit| orbit.is_of_unequal());
     if let Some(orbit) = unequal {

@@ -1,9 +1,9 @@
-//! Description to scene, on one page.
+//! Conversion of a description to a scene, on one page.
 
 use super::coordinates::symmetric_coordinates;
 use super::drive::resolve_drive;
 use super::expand::{ExpandedTree, check_names, check_pairs, check_size, expand};
-use super::layout::{self, Asked, Layout};
+use super::layout::{self, Layout, RequestedOutputs};
 use super::observables::resolve_observables;
 use super::prescribed::{LinkNames, resolve_prescribed};
 use super::reduction::reduce;
@@ -15,16 +15,16 @@ use super::spring_dampers::{SceneSpringDampers, forces_of_spring_dampers, resolv
 use super::symbols::check_meanings;
 use super::template::{Template, TreeBuilder, WholeRule};
 use super::values::{Usage, Values, check_used};
-use super::{Quantity, Scene, Sign, Solve, SpringLine};
+use super::{Lineage, Quantity, Scene, Sign, Solve, SpringLine};
 use crate::description::{Description, Node, Property, StructItem, Value};
 use crate::report::{Faults, OutputMessage, SyntaxMessage, TreeMessage, ValueMessage, nearest};
 use proc_macro2::{Ident, Span};
 use std::collections::BTreeMap;
 
-/// Checks a description and writes it out link by link.
+/// Checks a description and expands it link by link.
 ///
-/// `None` if anything is wrong, here or before: then `report` says what. Every
-/// mistake is looked for that does not depend on another one.
+/// Returns `None` after any mistake, in this or an earlier stage; all are added to `report`. After
+/// a mistake, every check that does not depend on it still runs.
 pub fn resolve(description: &Description, report: &mut Faults) -> Option<Scene> {
     let scene = resolve_scene(description, report)?;
     check_coupling(description, &scene, report);
@@ -32,7 +32,7 @@ pub fn resolve(description: &Description, report: &mut Faults) -> Option<Scene> 
     report.is_empty().then_some(scene)
 }
 
-/// Checks a description of a tree that is compiled or computed at run time.
+/// Checks the description of a tree, for a compiled model or for one at run time.
 pub(super) fn resolve_scene(description: &Description, report: &mut Faults) -> Option<Scene> {
     let mut builder = TreeBuilder {
         values: Values::declared(description.parameters.as_ref(), report),
@@ -51,7 +51,7 @@ pub(super) fn resolve_scene(description: &Description, report: &mut Faults) -> O
     if description.roots.len() > 1 {
         return None;
     }
-    let asked = Asked {
+    let asked = RequestedOutputs {
         resolved: &resolved,
         observables: !description.observables.is_empty(),
     };
@@ -79,7 +79,7 @@ pub(super) fn resolve_scene(description: &Description, report: &mut Faults) -> O
     }
     let owners = check_names(&expansion, &templates, report);
     check_parameter_names(&values, &owners, report);
-    // Copies may have stood where the tree was unreadable.
+    // The part that could not be parsed may have contained copies.
     let (mut prescribed, mut spring_dampers) = (Vec::new(), SceneSpringDampers::default());
     if readable {
         check_symmetry(&mut resolved, &expansion, report);
@@ -92,7 +92,7 @@ pub(super) fn resolve_scene(description: &Description, report: &mut Faults) -> O
     let mut scene = Scene {
         name: description.item.ident.to_string(),
         crate_path: description.crate_path.clone().unwrap_or_default(),
-        // Where there is none, that is reported.
+        // A missing value has been reported.
         gravity: gravity.unwrap_or_else(Quantity::zero),
         links: expansion.links,
         orbits: expansion.orbits,
@@ -106,9 +106,15 @@ pub(super) fn resolve_scene(description: &Description, report: &mut Faults) -> O
         spring_dampers: spring_dampers.torsional,
         translational: spring_dampers.translational,
         reduction,
+        lineage: expansion.lineage,
         layout,
     };
     if readable {
+        if let Some(span) = resolved.normal_form
+            && let Some(cause) = scene.normal_form_obstacle()
+        {
+            report.error(span, OutputMessage::NoNormalForm { cause });
+        }
         let acting = resolved.acting.as_ref();
         resolve_differences(acting, resolved.transverse, &mut scene, report);
         if !scene.groups.is_empty() {
@@ -119,7 +125,7 @@ pub(super) fn resolve_scene(description: &Description, report: &mut Faults) -> O
     }
     check_meanings(&scene, &values.spans, report);
     check_derives(&description.item, &scene, report);
-    // A link whose own values are wrong would look singular.
+    // Skipped after other mistakes: a link with wrong values would appear singular too.
     if report.is_empty() {
         check_used(&scene.parameters, &values.spans, report);
         check_regular(&templates, report);
@@ -127,19 +133,18 @@ pub(super) fn resolve_scene(description: &Description, report: &mut Faults) -> O
     report.is_empty().then_some(scene)
 }
 
-/// Returns the tree with all of its copies, and how the code takes the equations through it;
-/// none of a tree that is too large.
+/// Returns the expanded tree and the layout of its code, or `None` if the tree is too large.
 fn lay_out(
     templates: &mut [Template],
     whole: Option<WholeRule>,
     mut code: Option<(Code, Span)>,
-    asked: &Asked<'_>,
+    asked: &RequestedOutputs<'_>,
     report: &mut Faults,
 ) -> Option<(ExpandedTree, Layout)> {
     if let Some(rule) = whole {
         code = rule.code.map(|code| (code, rule.span)).or(code);
     }
-    let by_rule = match whole {
+    let by_rule = match whole.filter(|rule| rule.open.is_none()) {
         Some(mut rule) => {
             rule.code = code.map(|(code, _)| code);
             Some(layout::of_rule(rule, templates, asked, report).ok()?)
@@ -149,13 +154,19 @@ fn lay_out(
     if !check_size(templates, report) {
         return None;
     }
-    let expansion = expand(templates);
+    let lineage = whole.and_then(|rule| {
+        Some(Lineage {
+            generations: rule.open?,
+        })
+    });
+    let expansion = expand(templates, lineage);
     let links = expansion.links.len();
     let layout = by_rule.unwrap_or_else(|| layout::of_links(code, links, templates, asked, report));
     Some((expansion, layout))
 }
 
-/// Reports energies by scale, if they are asked for: of a tree that no rule describes.
+/// Reports a request for energies by scale (by generation) if no single rule describes the tree.
+/// Returns true if it reported one.
 fn refuses_scales(resolved: &Resolved, report: &mut Faults) -> bool {
     match resolved.budget {
         Some(span) if resolved.requests.scales() => {
@@ -166,7 +177,7 @@ fn refuses_scales(resolved: &Resolved, report: &mut Faults) -> bool {
     }
 }
 
-/// Reports parameters whose names are those of links.
+/// Reports parameters with the name of a link.
 fn check_parameter_names(values: &Values, owners: &BTreeMap<String, usize>, report: &mut Faults) {
     for (parameter, span) in values.parameters.iter().zip(&values.spans) {
         if owners.contains_key(&parameter.name) {
@@ -176,7 +187,8 @@ fn check_parameter_names(values: &Values, owners: &BTreeMap<String, usize>, repo
     }
 }
 
-/// Reports springs that couple sectors of which energies are asked for.
+/// Reports springs that couple sectors (sets of symmetric coordinates: all means, or one difference
+/// between copies) whose energies are requested.
 fn check_coupling(description: &Description, scene: &Scene, report: &mut Faults) {
     let requests = &scene.requests;
     if scene.spring_dampers.is_empty() || (requests.transfer.is_none() && requests.budget.is_none())
@@ -193,8 +205,8 @@ fn check_coupling(description: &Description, scene: &Scene, report: &mut Faults)
     }
 }
 
-/// Reports straight springs between points that keep their distance, and what they are asked for
-/// and not part of.
+/// Reports straight springs between points whose distance is fixed, and requested outputs that do
+/// not support straight springs.
 fn check_straight(description: &Description, scene: &Scene, report: &mut Faults) {
     let requests = &scene.requests;
     let refused = [
@@ -205,12 +217,12 @@ fn check_straight(description: &Description, scene: &Scene, report: &mut Faults)
     ];
     let clauses = description.spring_dampers.iter();
     let clauses: Vec<_> = clauses.filter(|own| own.is_straight()).collect();
-    // What is wrong with one that there is not is reported.
+    // Mistakes in a clause without a spring have been reported.
     if clauses.len() != scene.translational.len() {
         return;
     }
     let refused = refused.iter().find(|(is_wanted, _)| *is_wanted);
-    // Loops have budgets by scale alone, and no groups.
+    // Loops have budgets by scale only, and no groups.
     let other = match (refused, scene.in_loops()) {
         (Some(_), false) => scene.chord_springs(&scene.groups).err(),
         _ => None,
@@ -237,7 +249,7 @@ fn check_straight(description: &Description, scene: &Scene, report: &mut Faults)
     }
 }
 
-/// Reports straight springs beside a budget by scale.
+/// Reports straight springs if a budget by scale is requested.
 fn check_straight_by_scale(description: &Description, scene: &Scene, report: &mut Faults) {
     let mut clauses = description.spring_dampers.iter();
     let clause = clauses.find(|own| own.is_straight());
@@ -252,7 +264,7 @@ fn check_straight_by_scale(description: &Description, scene: &Scene, report: &mu
     }
 }
 
-/// Resolves the requests about small differences, which only copies have.
+/// Resolves the requests about small differences between identical copies that move in phase.
 fn resolve_differences(
     acting: Option<&(Span, Vec<Ident>)>,
     transverse: Option<Span>,
@@ -270,7 +282,7 @@ fn resolve_differences(
     }
 }
 
-/// The gravitational acceleration.
+/// Evaluates the gravitational acceleration.
 fn gravity(
     description: &Description,
     values: &mut Values,
@@ -309,7 +321,7 @@ fn gravity(
             None
         }
         None => {
-            // It may have stood where the attribute was unreadable.
+            // The part that could not be parsed may have contained it.
             if !description.damaged {
                 report.error(description.item.ident.span(), SyntaxMessage::MissingGravity);
             }
@@ -318,7 +330,7 @@ fn gravity(
     }
 }
 
-/// Checks that there is one root.
+/// Checks that there is exactly one root.
 fn check_roots(description: &Description, report: &mut Faults) {
     match description.roots.as_slice() {
         [] if description.damaged => {}
@@ -332,7 +344,7 @@ fn check_roots(description: &Description, report: &mut Faults) {
     }
 }
 
-/// Checks that no trait is derived that the attribute writes, or that the model cannot have.
+/// Reports derived traits that the attribute implements itself, or that the model cannot have.
 fn check_derives(item: &StructItem, scene: &Scene, report: &mut Faults) {
     let default = match scene.parameters.is_empty() {
         true => SyntaxMessage::DefaultDerived,

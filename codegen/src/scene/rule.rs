@@ -1,4 +1,4 @@
-//! Whole generations by rule.
+//! Generation rules: the links of all generations of a tree, given by the first one and ratios.
 
 use proc_macro2::{Ident, Span};
 
@@ -9,27 +9,29 @@ use crate::description::{Expression, ExpressionKind, Node, Property, Value};
 use crate::exact::{ExactError, Rational};
 use crate::report::{Faults, SyntaxMessage, TreeMessage};
 
-/// The settings of a generation rule.
+/// Settings of a generation rule.
 pub(super) struct GenerationRule {
-    /// Generations, at least one.
+    /// Number of generations, at least one.
     pub(super) count: usize,
-    /// Children of a link, at least one.
+    /// Number of children of a link, at least one.
     pub(super) branching: usize,
-    /// Form of its code, where the description gives one.
+    /// Layout of the code, if the description gives it.
     pub(super) code: Option<Code>,
+    /// True if one branching of each generation is open, and all other copies move in phase.
+    pub(super) open: bool,
 }
 
-/// Form of the code of a rule.
+/// Requested layout of the code.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Code {
     /// Loops over generations.
     Loops,
-    /// Statements for each link.
+    /// Statements written out for each link.
     Unrolled,
 }
 
 impl Code {
-    /// The form of that name in the attribute.
+    /// Returns the layout with the given name.
     fn named(name: &str) -> Option<Self> {
         match name {
             "loops" => Some(Self::Loops),
@@ -39,7 +41,7 @@ impl Code {
     }
 }
 
-/// Reads the attribute's own `code = ...`, with its place.
+/// Reads the setting `code = ...` of the attribute, with its span.
 pub(super) fn resolve_code(
     written: Option<&(Ident, Ident)>,
     report: &mut Faults,
@@ -52,7 +54,7 @@ pub(super) fn resolve_code(
     found.map(|code| (code, value.span()))
 }
 
-/// A ratio of a rule, and the property whose value over the parent's it is.
+/// A ratio of a rule, and the property that it multiplies from each generation to the next.
 pub(super) struct Ratio {
     property: &'static str,
     pub(super) dimension: Dimension,
@@ -70,11 +72,11 @@ const fn ratio(property: &'static str, name: &'static str, sign: Sign) -> Ratio 
     }
 }
 
-/// The ratio of all masses, and that of all lengths, that have none of their own.
+/// Ratios for all masses and for all lengths that have no ratio of their own.
 const MASS: Ratio = ratio("mass", "mass_ratio", Sign::Positive);
 const LENGTH: Ratio = ratio("length", "length_ratio", Sign::Positive);
 
-/// Quantities of a generation rule beside those of its body.
+/// Ratios that a generation rule may have.
 const RATIOS: &[Ratio] = &[
     MASS,
     LENGTH,
@@ -91,7 +93,8 @@ const RATIOS: &[Ratio] = &[
     ratio("rest", "rest_ratio", Sign::Any),
 ];
 
-/// The ratios of a rule whose links have these dimensions beside the common ones.
+/// Returns the ratios of a rule whose links have the dimensions `own` in addition to the common
+/// properties.
 pub(super) fn ratios(own: &[Dimension]) -> impl Iterator<Item = &'static Dimension> {
     let is_known = |ratio: &&Ratio| {
         let mut properties = own.iter().chain(COMMON);
@@ -101,19 +104,20 @@ pub(super) fn ratios(own: &[Dimension]) -> impl Iterator<Item = &'static Dimensi
     RATIOS.iter().filter(is_known).map(|ratio| &ratio.dimension)
 }
 
-/// Properties of a generation rule that are no quantities.
-pub(super) const COUNTS: &[&str] = &["count", "branching", "shape", "code"];
+/// Properties of a generation rule that are not quantities.
+pub(super) const COUNTS: &[&str] = &["count", "branching", "open", "shape", "code"];
 
-/// Returns true if a ratio changes the proportions of a shape, so that later
-/// generations are no scaled copies of the first.
+/// Returns true if a ratio changes the proportions of a shape, so that later generations are not
+/// scaled copies of the first.
 pub(super) fn changes_shape(first: &GivenProperties) -> bool {
     ["radius_ratio", "width_ratio", "margin_ratio"]
         .iter()
         .any(|name| first.value(name).is_some())
 }
 
-/// Properties of the links of a generation, counted from 0: those of the first, each
-/// times its ratio, or times the ratio of masses or lengths by its dimension.
+/// Returns the properties of the links of a generation, counted from 0: those of the first
+/// generation, each multiplied by its own ratio, or by the ratio of masses or lengths according to
+/// its unit.
 pub(super) fn scaled(
     first: &GivenProperties,
     generation: usize,
@@ -129,7 +133,7 @@ pub(super) fn scaled(
         if RATIOS.iter().any(|ratio| ratio.dimension.name == *name) {
             continue;
         }
-        // Friction of all kinds has one ratio; its width has none.
+        // One ratio applies to all kinds of friction; the smoothing width does not change.
         let (property, member) = name.split_once('(').unwrap_or((name, ""));
         let own = RATIOS.iter().find(|ratio| ratio.property == property);
         let own = own.filter(|_| member != "width)");
@@ -150,20 +154,22 @@ pub(super) fn scaled(
     Ok(scaled)
 }
 
-/// The properties of a rule that are no quantities.
+/// Values of the properties that are not quantities.
 #[derive(Default)]
 pub(super) struct Counts {
-    /// True if the number of generations is given, right or wrong.
+    /// True if the number of generations is given, whether or not it is valid.
     pub(super) is_named: bool,
     pub(super) count: Option<usize>,
     pub(super) branching: Option<usize>,
     pub(super) shape: Option<Result<&'static BodyShape, ()>>,
     pub(super) code: Option<Code>,
+    /// Number of open branchings of each generation, with the span of the word.
+    open: Option<(Option<usize>, Span)>,
 }
 
 impl Counts {
-    /// Reads them; what is wrong goes to `report`. Properties given twice are
-    /// reported elsewhere.
+    /// Reads these properties. Adds mistakes to `report`, except for properties given twice, which
+    /// are reported elsewhere.
     pub(super) fn read(&mut self, node: &Node, report: &mut Faults) {
         for property in &node.properties {
             let Property { name, value, .. } = property;
@@ -187,14 +193,35 @@ impl Counts {
                         report.error(name.span(), SyntaxMessage::NotACode);
                     }
                 }
+                "open" => self.open = Some((count(value), name.span())),
                 "shape" => self.shape = Some(shape(value, name.span(), report)),
                 _ => {}
             }
         }
     }
+
+    /// Returns true if one branching of each generation is open. Reports a rule for which that is
+    /// impossible.
+    pub(super) fn is_open(&self, report: &mut Faults) -> bool {
+        let Some((open, span)) = self.open else {
+            return false;
+        };
+        let needs = match (open, self.branching, self.count) {
+            (Some(1), Some(2), Some(2..=MOST_OPEN) | None) => return true,
+            (Some(1), Some(2), _) => "2 to 32 generations",
+            (Some(1), ..) => "`branching = 2`",
+            _ => "the value 1",
+        };
+        report.error(span, TreeMessage::OpenBranching { needs });
+        false
+    }
 }
 
-/// A literal whole number of at least 1; all beyond `u32` count as `u32::MAX`.
+/// Largest number of generations with one open branching each: the number of copies in phase stays
+/// below 2³².
+const MOST_OPEN: usize = 32;
+
+/// Reads a literal whole number of at least 1; numbers beyond `u32` become `u32::MAX`.
 fn count(value: &Value) -> Option<usize> {
     let Value::Single(Expression {
         kind: ExpressionKind::Number(number),
@@ -209,7 +236,7 @@ fn count(value: &Value) -> Option<usize> {
     Some(number.numerator_text().parse::<u32>().unwrap_or(u32::MAX) as usize)
 }
 
-/// Form of the code, as the value of a property.
+/// Reads the layout of the code from the value of a property.
 fn code(value: &Value) -> Option<Code> {
     let Value::Single(Expression {
         kind: ExpressionKind::Name(name),
@@ -221,7 +248,7 @@ fn code(value: &Value) -> Option<Code> {
     Code::named(&name.to_string())
 }
 
-/// A shape as the value of a property.
+/// Reads a shape from the value of a property.
 fn shape(value: &Value, span: Span, report: &mut Faults) -> Result<&'static BodyShape, ()> {
     let Value::Single(Expression {
         kind: ExpressionKind::Name(name),

@@ -1,31 +1,18 @@
-//! Scenes of trees that are computed as they are described, with equations that no
-//! description changes.
+//! Scenes of trees that are described at run time. Their equations are general code for any tree.
 
-use super::Scene;
 use super::layout::Layout;
+use super::outputs::Support;
 use super::resolve::resolve_scene;
+use super::{Requests, Scene};
 use crate::description::Description;
 use crate::report::{Faults, OutputMessage, SizeMessage};
 
-/// Outputs that hold for every tree, so that they need not be asked for.
-const ALWAYS: [&str; 6] = [
-    "energies",
-    "momenta",
-    "modes",
-    "positions",
-    "forces",
-    "taylor",
-];
-
-/// Outputs that are derived for one tree.
-const DERIVED: [&str; 1] = ["transverse"];
-
-/// Most links.
+/// Largest number of links.
 const MOST: usize = 1 << 16;
 
-/// Checks a description as [`resolve`](super::resolve()) does, and that nothing is asked for which
-/// has to be derived. Outputs that hold for every tree, or every one with copies, may be asked
-/// for or not.
+/// Checks a description as [`resolve`](super::resolve()) does, and reports requested outputs that
+/// would have to be derived. Outputs that are available for every tree, or for every tree with
+/// copies, need not be requested.
 pub fn resolve_at_run_time(description: &Description, report: &mut Faults) -> Option<Scene> {
     let mut refuse = |name: &proc_macro2::Ident, what: String| {
         report.error(name.span(), OutputMessage::NotAtRunTime { what });
@@ -36,15 +23,19 @@ pub fn resolve_at_run_time(description: &Description, report: &mut Faults) -> Op
         all.filter(|request| request.name == *name).count() == 1
     };
     kept.requests.retain(|request| {
-        let name = request.name.to_string();
-        let derived = DERIVED.contains(&name.as_str());
-        if derived {
-            refuse(&request.name, format!("emit({name})"));
+        let mut flags = Requests::FLAGS.iter();
+        let flag = flags.find(|(name, _)| request.name == name);
+        match flag.map(|(_, support)| support) {
+            // One that is written twice is a mistake.
+            Some(Support::Everywhere | Support::RunTime) => {
+                request.forms.is_some() || !is_single(&request.name)
+            }
+            Some(Support::RunTimeCopies) | None => true,
+            Some(Support::WrittenOut) => {
+                refuse(&request.name, format!("emit({})", request.name));
+                false
+            }
         }
-        let known = ALWAYS.contains(&name.as_str()) && request.forms.is_none();
-        // One that is written twice is a mistake.
-        let always = known && is_single(&request.name);
-        !derived && !always
     });
     let scene = resolve_scene(&kept, report)?;
     if let (Layout::Generations { links, .. }, Some(root)) =

@@ -1,10 +1,10 @@
-//! Shapes by name, and links that were meant to have one.
+//! Shapes by name, and a message for links whose shape was probably forgotten.
 
 use super::bodies::{BodyShape, SHAPES};
 use crate::description::Node;
 use crate::report::{TreeMessage, nearest};
 
-/// Other words for shapes.
+/// Other words for shapes, each with the name of the shape.
 const SYNONYMS: &[(&str, &str)] = &[
     ("sphere", "ball"),
     ("bar", "rod"),
@@ -19,7 +19,7 @@ fn synonym(name: &str) -> Option<&'static str> {
     meant.map(|(_, shape)| *shape)
 }
 
-/// A shape by its name.
+/// Returns the shape with the given name.
 pub(super) fn find_shape(name: &str) -> Result<&'static BodyShape, TreeMessage> {
     SHAPES
         .iter()
@@ -35,8 +35,9 @@ pub(super) fn find_shape(name: &str) -> Result<&'static BodyShape, TreeMessage> 
         })
 }
 
-/// The message about a link without a shape that is called as one, or has the properties of
-/// one. A link with a centre of mass and an inertia may be called anything: a shape has neither.
+/// Returns a message for a link without a shape that has the name of a shape, or properties that
+/// only shapes have. A link with a centre of mass and an inertia may have any name, because a shape
+/// has neither property.
 pub(super) fn forgotten_shape(node: &Node) -> Option<TreeMessage> {
     let is_given = |name: &str| node.properties.iter().any(|own| own.name == name);
     let is_plain = ["com", "inertia"].into_iter().all(is_given);

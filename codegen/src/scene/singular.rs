@@ -1,25 +1,24 @@
-//! The check that a mass matrix is regular for all angles.
+//! Check that the mass matrix is regular for all angles.
 //!
-//! The mass matrix is singular at a configuration if some velocities other than
-//! zero have no kinetic energy there. Call a subtree *yielding* if in some
-//! configuration its pivot can move, in some direction, without kinetic energy;
-//! the direction turns with the subtree, and subtrees turn independently. With m, I, d
-//! mass, inertia and centre of mass of a link and p the places where its
-//! children hang, all from its pivot:
+//! The mass matrix is singular at a configuration if some nonzero velocities have no kinetic energy
+//! there. Call a subtree *yielding* if in some configuration its pivot can move, in some direction,
+//! without kinetic energy; the direction turns with the subtree, and subtrees turn independently.
+//! Let m, I, d be mass, inertia and centre of mass of a link, and p the points from which its
+//! children hang; d and p are measured from its pivot:
 //!
-//! - A link can turn about its resting pivot without energy iff I = 0, m d = 0
-//!   and every child has p = 0 or yields. The mass matrix is singular for some
-//!   angles iff there is such a link: take the topmost link that moves.
-//! - A subtree yields iff it can move without turning its first link, or with
-//!   turning it:
+//! - A link can turn about its resting pivot without energy if and only if I = 0, m d = 0 and every
+//!   child has p = 0 or yields. The mass matrix is singular for some angles if and only if there is
+//!   such a link: take the topmost link that moves.
+//! - A subtree yields if and only if it can move without turning its first link, or with turning
+//!   it:
 //!   - m = 0 and all children yield; or
-//!   - I = 0, m = 0 and the children that do not yield hang from one common
-//!     p ≠ 0, which stays at rest while the link turns about it; or
-//!   - I = 0, m > 0, d ≠ 0 and every child yields or has p = d: the link turns
-//!     about its centre of mass.
+//!   - I = 0, m = 0 and the children that do not yield hang from one common p ≠ 0, which stays at
+//!     rest while the link turns about it; or
+//!   - I = 0, m > 0, d ≠ 0 and every child yields or has p = d: the link turns about its centre of
+//!     mass.
 //!
-//! Values that are [negligible](NEGLIGIBLE) count as zero. Values that depend on parameters
-//! count as different from zero and from each other unless they are written alike; the model
+//! Values that are [negligible](NEGLIGIBLE) count as zero. Values that depend on parameters count
+//! as different from zero, and from each other unless they are the same expression; the model
 //! checks them when it is built.
 
 use super::bodies::Body;
@@ -27,8 +26,8 @@ use super::template::Template;
 use super::{NEGLIGIBLE, Offset, Quantity};
 use crate::report::{Faults, TreeMessage};
 
-/// Reports links that can turn without kinetic energy, the lowest of each
-/// branch: those above it may be right once it is.
+/// Reports links that can turn without kinetic energy, only the lowest of each branch: once it is
+/// corrected, links above it may be correct.
 pub(super) fn check_regular(templates: &[Template], report: &mut Faults) {
     for index in singular(templates) {
         if let Some(Template { name, span, .. }) = templates.get(index) {
@@ -37,16 +36,16 @@ pub(super) fn check_regular(templates: &[Template], report: &mut Faults) {
     }
 }
 
-/// The children of a link, as far as they are known.
+/// Children of a link that have already been checked.
 struct Subtrees<'a> {
-    /// Pivots of the children that do not yield.
+    /// Pivots of the children that do not yield, that is, cannot move without kinetic energy.
     firm: Vec<&'a Offset>,
-    /// True if a link below can turn without energy.
+    /// True if a descendant of the link can turn without kinetic energy.
     singular: bool,
 }
 
-/// The links that can turn without kinetic energy and have none below them that
-/// can, in the order of the templates.
+/// Returns the links that can turn without kinetic energy and have no such link below them, in the
+/// order of the templates.
 pub(super) fn singular(templates: &[Template]) -> Vec<usize> {
     let mut below: Vec<Subtrees<'_>> = templates
         .iter()
@@ -56,12 +55,12 @@ pub(super) fn singular(templates: &[Template]) -> Vec<usize> {
         })
         .collect();
     let mut found = Vec::new();
-    // Children stand behind their parents: backwards, they come first.
+    // Children come after their parents, so in reverse order they come first.
     for (index, template) in templates.iter().enumerate().rev() {
         let Some(own) = below.get(index) else {
             continue;
         };
-        let turns = turns(template, &own.firm);
+        let turns = can_turn_freely(template, &own.firm);
         let yields = yields(template, &own.firm);
         let singular = own.singular || turns;
         if turns && !own.singular {
@@ -78,15 +77,15 @@ pub(super) fn singular(templates: &[Template]) -> Vec<usize> {
     found
 }
 
-/// Returns true if the link can turn about its resting pivot; `firm` holds the
-/// pivots of the children that do not yield.
-fn turns(Template { body, .. }: &Template, firm: &[&Offset]) -> bool {
+/// Returns true if the link can turn about its resting pivot without kinetic energy; `firm` holds
+/// the pivots of the children that do not yield.
+fn can_turn_freely(Template { body, .. }: &Template, firm: &[&Offset]) -> bool {
     is_without_inertia(body)
         && (is_massless(body) || is_origin(&body.com))
         && firm.iter().all(|pivot| is_origin(pivot))
 }
 
-/// Returns true if the link's own pivot can move.
+/// Returns true if the link's own pivot can move without kinetic energy.
 fn yields(Template { body, .. }: &Template, firm: &[&Offset]) -> bool {
     if is_massless(body) && firm.is_empty() {
         return true;
@@ -102,7 +101,7 @@ fn yields(Template { body, .. }: &Template, firm: &[&Offset]) -> bool {
     centre.is_some_and(|centre| !is_origin(centre) && firm.iter().all(|pivot| *pivot == centre))
 }
 
-/// Returns true if a point is known to be the pivot.
+/// Returns true if a point certainly coincides with the pivot, for all values of the parameters.
 fn is_origin(Offset { along, lateral }: &Offset) -> bool {
     let [_, length, _] = NEGLIGIBLE;
     [along, lateral]
@@ -120,7 +119,8 @@ fn is_without_inertia(body: &Body) -> bool {
     is_below(&body.inertia, inertia)
 }
 
-/// Returns true if a value is known to be smaller.
+/// Returns true if the magnitude of a value is certainly less than `least`, for all values of the
+/// parameters.
 fn is_below(value: &Quantity, least: f64) -> bool {
     value
         .exact()

@@ -1,5 +1,5 @@
-//! Sectors that are named as small: those of a budget's orders, and those whose
-//! differences act back on a motion in phase.
+//! Sectors (differences between copies) that are declared small: in the truncated forms of a
+//! budget, or with differences that act back on an in-phase motion.
 
 use proc_macro2::{Ident, Span};
 
@@ -9,7 +9,8 @@ use super::sectors::sectors;
 use crate::description::RequestForm;
 use crate::report::{Faults, OutputMessage, nearest};
 
-/// Reads the sectors whose differences act back: none where all shall.
+/// Reads the names of the sectors whose differences act back on the in-phase motion; empty means
+/// all sectors.
 pub(super) fn acting(
     span: Span,
     forms: Option<&[RequestForm]>,
@@ -36,7 +37,7 @@ pub(super) fn acting(
     forms.iter().map(|form| form.name.clone()).collect()
 }
 
-/// Finds the sectors whose differences act back; what is wrong goes to `report`.
+/// Finds the sectors whose differences act back. Adds mistakes to `report`.
 pub(super) fn resolve_acting(
     resolved: Option<&(Span, Vec<Ident>)>,
     scene: &mut Scene,
@@ -60,7 +61,7 @@ pub(super) fn resolve_acting(
     scene.requests.small = small;
 }
 
-/// Finds the sectors that are named as small; what is wrong goes to `report`.
+/// Finds the sectors that are declared small. Adds mistakes to `report`.
 pub(super) fn resolve_small(resolved: &[Ident], scene: &mut Scene, report: &mut Faults) {
     if resolved.is_empty() {
         return;
@@ -78,7 +79,7 @@ pub(super) fn resolve_small(resolved: &[Ident], scene: &mut Scene, report: &mut 
     }
 }
 
-/// Finds each of the named sectors, known by `names`, once.
+/// Finds the sector of each given name; reports unknown and repeated names.
 fn resolve_sectors<S: PartialEq>(
     written: &[Ident],
     names: &[&str],

@@ -16,27 +16,28 @@ use super::{Coordinate, CoordinateKind, LinkId, OrbitId, Quantity, Reduction, Sc
 use crate::description::{BETWEEN, Description, GUY, SIBLINGS, SpringDamperClause, Value};
 use crate::report::{Faults, TreeMessage, ValueMessage, nearest};
 
-/// A torsion spring and friction between two links, or between all copies of a node under one
-/// link, on the difference of their angles.
+/// A torsion spring and friction between two links, or between all copies of a node under one link.
+/// The torques depend on the difference of the two angles.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DescribedSpringDamper {
-    /// The clause in words, as in `between(a, b)`.
+    /// The clause in words, for messages, as in `between(a, b)`.
     pub what: String,
-    /// The links.
+    /// The connected links.
     pub ends: SpringDamperEnds,
-    /// Spring and friction; there is no drag.
+    /// Coefficients of spring and friction; the drag is zero.
     pub torques: PassiveTorques,
 }
 
 impl Reduction {
-    /// The node of that name, if its copies move alike.
+    /// Returns the node of the given name if its copies move in phase.
     fn in_phase(&self, name: &str) -> Option<&WholeNode> {
         let mut orbits = self.orbits.iter();
         orbits.find(|orbit| orbit.name == name && orbit.in_phase && orbit.copies > 1)
     }
 
-    /// Number of links of the whole tree for which one that copies of a node hang from stands.
-    fn copies_above(&self, name: &str) -> usize {
+    /// Returns the number of links of the whole tree that are represented by the parent of this
+    /// node.
+    fn copies_of_parent(&self, name: &str) -> usize {
         let Some(index) = self.orbits.iter().position(|orbit| orbit.name == name) else {
             return 1;
         };
@@ -47,8 +48,8 @@ impl Reduction {
 }
 
 impl Scene {
-    /// Names of what a spring-damper acts between, by which its constants are called; a number
-    /// besides where one before acts between the same.
+    /// Returns the names of the connected links, which become part of the names of the constants. A
+    /// number follows if an earlier spring-damper connects the same links.
     pub fn spring_damper_names(&self, index: usize) -> Vec<String> {
         let ends = |own: &DescribedSpringDamper| match &own.ends {
             SpringDamperEnds::Links(links) => {
@@ -63,16 +64,17 @@ impl Scene {
         own.into_iter().chain(number).collect()
     }
 
-    /// Springs, friction and drag of all links, and between them.
+    /// Returns springs, friction and drag of all links, and of spring-dampers between links.
     pub fn passive_torques(&self) -> impl Iterator<Item = &PassiveTorques> {
         let links = self.links.iter().map(|link| &link.passive);
-        // Copies in phase are one link.
+        // Spring-dampers between copies in phase have no pairs: the copies are one link.
         let between = self.spring_dampers.iter();
         let between = between.filter(|own| !self.pair_runs(&own.ends).is_empty());
         links.chain(between.map(|own| &own.torques))
     }
 
-    /// The spring-dampers between copies that move in phase as this link, by their indices.
+    /// Returns the indices of the spring-dampers between the in-phase copies that this link
+    /// represents.
     pub fn spring_dampers_in_phase(&self, link: LinkId) -> Vec<usize> {
         let OrbitId(orbit) = self.links[link.0].orbit;
         let node = &self.orbits[orbit].node;
@@ -84,8 +86,8 @@ impl Scene {
         own.map(|(index, _)| index).collect()
     }
 
-    /// Returns true if differences of copies that are zero with their rates do not stay zero, for
-    /// what acts between links: on several coordinates, or at rest where copies differ.
+    /// Returns true if spring-dampers make differences between copies grow from zero: either one
+    /// acts on several coordinates at once, or its spring is relaxed only if the copies differ.
     pub fn couples_differences(&self, coordinates: &[Coordinate]) -> bool {
         let couples = |pair: LinkPair| {
             let own = &self.spring_dampers[pair.spring_damper];
@@ -104,12 +106,13 @@ impl Scene {
         self.link_pairs().into_iter().any(couples)
     }
 
-    /// The first spring-damper whose spring couples sectors, or is at rest where copies differ:
-    /// sectors have no energies by themselves then. None where all springs together leave each
-    /// sector to itself.
+    /// Returns the index of the first spring-damper whose spring couples sectors, or whose spring
+    /// is relaxed only if the copies differ, so that the sectors have no separate energies. (A
+    /// sector is a set of symmetric coordinates: all means, or one difference between copies.)
+    /// Returns `None` if the sum of all springs couples no two sectors.
     pub fn coupling_spring(&self, coordinates: &[Coordinate]) -> Option<usize> {
         if let Layout::Generations { .. } = self.layout {
-            // Coordinates are those of one link of each.
+            // Here `coordinates` describe one link per generation only.
             return self.spring_dampers.iter().position(|own| {
                 matches!(own.ends, SpringDamperEnds::Links(_)) && !own.torques.spring.is_zero()
             });
@@ -147,9 +150,9 @@ impl Scene {
     }
 }
 
-/// Properties of a spring-damper.
+/// Returns the properties that a spring-damper may have.
 fn dimensions(word: &str) -> impl Iterator<Item = &'static Dimension> {
-    // Copies do not differ where they are at rest.
+    // The spring between copies is at rest where they are equal.
     let rests = word == BETWEEN;
     COMMON.iter().filter(move |known| {
         let name = known.name;
@@ -157,21 +160,21 @@ fn dimensions(word: &str) -> impl Iterator<Item = &'static Dimension> {
     })
 }
 
-/// The clause in words.
+/// Returns the clause in words.
 fn in_words(clause: &SpringDamperClause) -> String {
     let links: Vec<String> = clause.links.iter().map(ToString::to_string).collect();
     format!("{}({})", clause.name, links.join(", "))
 }
 
-/// What a clause says of springs and friction.
+/// Springs and friction of a clause.
 pub(super) enum ClauseForces {
-    /// On the difference of two angles.
+    /// Torques that depend on the difference of two angles.
     Torsional(Box<PassiveTorques>),
-    /// Along the line between two points.
+    /// Forces along the line between two points.
     Translational(Box<LineProperties>),
 }
 
-/// Reads the springs and the friction of all clauses; what is wrong goes to `report`.
+/// Reads the springs and the friction of all clauses. Adds mistakes to `report`.
 pub(super) fn forces_of_spring_dampers(
     clauses: &[SpringDamperClause],
     values: &mut Values,
@@ -206,14 +209,15 @@ pub(super) fn forces_of_spring_dampers(
     clauses.iter().map(&mut own).collect()
 }
 
-/// Spring-dampers of a scene.
+/// All spring-dampers of a scene.
 #[derive(Default)]
 pub(super) struct SceneSpringDampers {
     pub(super) torsional: Vec<DescribedSpringDamper>,
     pub(super) translational: Vec<DescribedTranslationalSpringDamper>,
 }
 
-/// Finds the links of all clauses, whose forces are these; what is wrong goes to `report`.
+/// Finds the links of all clauses and combines them with the given `forces`. Adds mistakes to
+/// `report`.
 pub(super) fn resolve_spring_dampers(
     description: &Description,
     forces: Vec<ClauseForces>,
@@ -235,10 +239,15 @@ pub(super) fn resolve_spring_dampers(
             }
         };
         let is_of_siblings = clause.name == SIBLINGS;
-        if !reductions.in_phase.is_empty() && !is_of_siblings {
+        let in_phase = [
+            (!reductions.in_phase.is_empty(), "in_phase(...)"),
+            (expansion.lineage.is_some(), "open"),
+        ];
+        let in_phase = in_phase.into_iter().find(|(is_given, _)| *is_given);
+        if let (Some((_, setting)), false) = (in_phase, is_of_siblings) {
             report.error(
                 clause.name.span(),
-                TreeMessage::SpringDamperInPhase { what },
+                TreeMessage::SpringDamperInPhase { what, setting },
             );
             continue;
         }
@@ -251,7 +260,7 @@ pub(super) fn resolve_spring_dampers(
             false => two_links(clause, names, report),
         };
         if let (Some(SpringDamperEnds::Siblings(node)), Some(reduction)) = (&ends, reduction) {
-            torques.times(reduction.copies_above(node));
+            torques.times(reduction.copies_of_parent(node));
         }
         if let Some(ends) = ends {
             found.torsional.push(DescribedSpringDamper {
@@ -264,7 +273,7 @@ pub(super) fn resolve_spring_dampers(
     found
 }
 
-/// Finds the points of a straight spring and damper.
+/// Finds the end points of a straight spring and damper.
 fn straight(
     clause: &SpringDamperClause,
     line: LineProperties,
@@ -274,8 +283,9 @@ fn straight(
 ) -> Option<DescribedTranslationalSpringDamper> {
     let (what, reductions) = (in_words(clause), &description.reductions);
     let merged = [
-        (!reductions.in_phase.is_empty(), "in_phase"),
-        (!reductions.locked.is_empty(), "locked"),
+        (!reductions.in_phase.is_empty(), "in_phase(...)"),
+        (!reductions.locked.is_empty(), "locked(...)"),
+        (expansion.lineage.is_some(), "open"),
     ];
     if let Some((_, reduction)) = merged.into_iter().find(|(is_there, _)| *is_there) {
         let noun = line.noun();
@@ -320,7 +330,7 @@ fn two_links(
     let found: Vec<LinkId> = found.collect();
     match (clause.links.as_slice(), found.as_slice()) {
         ([_, _], [a, b]) if a != b => Some(SpringDamperEnds::Links([*a, *b])),
-        // A name that no link has is reported.
+        // An unknown link name has been reported.
         ([_, _], [] | [_]) => None,
         _ if clause.damaged => None,
         _ => {
@@ -358,6 +368,7 @@ fn siblings(
     let has_copies = match layout {
         Layout::Generations { branching, .. } => branching > 1 && depth > 0,
         _ if reduction.is_some_and(|whole| whole.in_phase(&name).is_some()) => true,
+        _ if expansion.lineage.is_some() => depth > 0,
         _ => expansion.groups.iter().any(|group| {
             let first = group
                 .copies

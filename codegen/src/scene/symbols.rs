@@ -1,4 +1,4 @@
-//! The symbols that observables are written in.
+//! Symbols that observables can use.
 
 use std::collections::BTreeMap;
 
@@ -7,32 +7,32 @@ use super::observed::{CoordinateIndex, ObservedAtom, Variable, VariableKind};
 use crate::report::{Faults, OutputMessage};
 use proc_macro2::Span;
 
-use super::{FrictionPlace, LinkId, ParameterId, PassiveTorques, Quantity, Scene};
+use super::{FrictionContact, LinkId, ParameterId, PassiveTorques, Quantity, Scene};
 
-/// The meaning of a name.
+/// Meaning of a name in an observable.
 pub(super) enum Meaning {
-    /// One quantity.
+    /// A single quantity.
     One(ObservedAtom),
-    /// A parameter of the user's and a symbol of ours.
+    /// Both a parameter of the user and a symbol of the scene.
     Several,
 }
 
-/// All names and what they mean.
+/// All names with their meanings.
 pub(super) struct ObservableSymbols {
     meanings: BTreeMap<String, Meaning>,
-    /// Name of the last link, for examples.
+    /// Name of the last link, for examples in messages.
     example: String,
 }
 
 impl ObservableSymbols {
-    /// The symbols of a scene whose tree is complete.
+    /// Collects the symbols of a scene whose tree is complete.
     pub(super) fn of(scene: &Scene) -> Self {
         let mut symbols = Self::without_constants(scene);
         for name in constants(scene) {
             symbols.add(name.clone(), ObservedAtom::Constant(name));
         }
         for (index, parameter) in scene.parameters.iter().enumerate() {
-            // `gravity = gravity` is no contradiction.
+            // A parameter `gravity` in `gravity = gravity` is not ambiguous.
             if !is_gravity(scene, index) {
                 let quantity = Quantity::parameter(ParameterId(index));
                 symbols.add(parameter.name.clone(), ObservedAtom::Known(quantity));
@@ -41,8 +41,8 @@ impl ObservableSymbols {
         symbols
     }
 
-    /// Symbols that are no constants of the model: coordinates, their velocities and momenta,
-    /// energies and gravity.
+    /// Collects the symbols except constants of the model: coordinates, their velocities and
+    /// momenta, energies and gravity.
     fn without_constants(scene: &Scene) -> Self {
         let mut symbols = Self {
             meanings: BTreeMap::new(),
@@ -55,7 +55,7 @@ impl ObservableSymbols {
         for (index, link) in scene.links.iter().enumerate() {
             symbols.coordinate(&link.name, CoordinateIndex::Absolute(index));
         }
-        // The mean of a single link is its own angle.
+        // The mean of a single link is the link's own angle.
         let shared = |(_, coordinate): &(usize, _)| {
             let coordinate: &super::Coordinate = coordinate;
             coordinate.weights.len() > 1
@@ -109,33 +109,32 @@ impl ObservableSymbols {
         &self.example
     }
 
-    /// Returns true if a name is that of a quantity that moves.
+    /// Returns true if the name denotes a quantity that depends on the motion.
     pub(super) fn is_variable(&self, name: &str) -> bool {
         let meaning = self.get(name);
         matches!(meaning, Some(Meaning::One(ObservedAtom::Variable(_))))
     }
 
-    /// Returns true if a name is that of a constant of the model, which has a
-    /// function to read it.
+    /// Returns true if the name denotes a constant of the model, which has a getter function.
     pub(super) fn is_constant(&self, name: &str) -> bool {
         let meaning = self.get(name);
         matches!(meaning, Some(Meaning::One(ObservedAtom::Constant(_))))
     }
 }
 
-/// First words of the names that no parameter can have.
+/// First words of names that a parameter cannot have.
 const FIRST_WORDS: [&str; 5] = ["theta", "omega", "kinetic", "potential", "gravity"];
 
-/// Returns true if a parameter is gravity, and is called so.
+/// Returns true if the parameter is the gravitational acceleration and is named `gravity`.
 fn is_gravity(scene: &Scene, parameter: usize) -> bool {
     scene.parameters[parameter].name == "gravity"
         && scene.gravity == Quantity::parameter(ParameterId(parameter))
 }
 
-/// Reports parameters whose names mean something else in expressions: angles, velocities,
-/// energies and gravity. Names of constants of the model may be theirs, as `inertia = inertia_arm`
-/// says what it is, and so may those of momenta, which no drive is taken for a function of;
-/// where both are in reach, in observables, these are refused too.
+/// Reports parameters that are named like an angle, a velocity, an energy or gravity. Two kinds of
+/// names are accepted: those of constants of the model, because `inertia = inertia_arm` is clear,
+/// and those of momenta, which nobody expects in a drive. In observables, where both meanings are
+/// possible, these are refused too.
 pub(super) fn check_meanings(scene: &Scene, spans: &[Span], report: &mut Faults) {
     let mut first_words = scene
         .parameters
@@ -160,7 +159,7 @@ pub(super) fn check_meanings(scene: &Scene, spans: &[Span], report: &mut Faults)
     }
 }
 
-/// The names of the model's constants, those included that turn out to be zero.
+/// Returns the names of the model's constants, including constants that are zero.
 fn constants(scene: &Scene) -> Vec<String> {
     let mut names = Vec::new();
     let orbit = |link: LinkId| &scene.orbits[scene.links[link.0].orbit.0];
@@ -194,8 +193,8 @@ fn constants(scene: &Scene) -> Vec<String> {
     names
 }
 
-/// Adds the names of the constants of links, of which `own` says what they are called;
-/// `other` says so of links above them.
+/// Adds the names of the constants of `links`. In these names the links are called `own`; `other`
+/// returns the name used for an ancestor.
 fn add_constants<'a>(
     scene: &'a Scene,
     own: &str,
@@ -214,10 +213,10 @@ fn add_constants<'a>(
         (&["rest"], |own| !own.rest.is_zero()),
         (
             &["coulomb", "quadratic_friction", "friction_width"],
-            |own| !own.law(FrictionPlace::Joint).is_none(),
+            |own| !own.law(FrictionContact::Joint).is_none(),
         ),
         (&["quadratic_drag", "drag_width"], |own| {
-            !own.law(FrictionPlace::Ground).is_none()
+            !own.law(FrictionContact::Ground).is_none()
         }),
     ];
     for (words, is_present) in torques {

@@ -1,4 +1,4 @@
-//! Templates: one link for all its copies, its body known.
+//! Templates: one link for all of its copies, with its body.
 
 use proc_macro2::Span;
 
@@ -8,46 +8,47 @@ use super::passive::PassiveTorques;
 use super::rule::Code;
 use super::values::Values;
 
-/// Most links that a scene may have, copies included.
+/// Largest number of links of a scene, copies included.
 pub(super) const MAX_LINKS: usize = 4096;
 
-/// A link of the description, for all its copies that are equal.
+/// A link of the description; it represents all of its equal copies.
 #[derive(Debug)]
 pub(super) struct Template {
     pub(super) name: String,
-    /// The node of the description: one for all generations of a rule.
+    /// Name of the node in the description; a generation rule is one node.
     pub(super) node: String,
     pub(super) span: Span,
-    /// An earlier template.
+    /// Index of the parent's template, which comes earlier.
     pub(super) parent: Option<usize>,
-    /// Copies under each copy of the parent.
+    /// Number of copies under each copy of the parent.
     pub(super) copies: usize,
-    /// Number of this copy among those of its node, where they differ: then each has a
-    /// template of its own.
+    /// If the copies of a node differ, each has its own template, and this is the number of the
+    /// copy.
     pub(super) number: Option<usize>,
-    /// Template of the first copy of the node; its own index where copies are equal.
+    /// Index of the template of the node's first copy; its own index if the copies are equal.
     pub(super) origin: usize,
     pub(super) body: Body,
-    /// The pivot on the parent; zero for the root.
+    /// Pivot on the parent; zero for the root.
     pub(super) pivot: Offset,
     pub(super) passive: PassiveTorques,
 }
 
-/// The templates and values that are built up on the way through the
-/// description.
+/// Templates and values collected while the description is read.
 #[derive(Default)]
 pub(super) struct TreeBuilder {
-    /// Parents before children, depth first.
+    /// Templates in depth-first order, each parent before its children.
     pub(super) templates: Vec<Template>,
     pub(super) values: Values,
-    /// The rule that the whole tree is, where it is one.
+    /// The rule, if one rule describes the whole tree.
     pub(super) whole: Option<WholeRule>,
 }
 
-/// A rule for the whole tree.
+/// A generation rule that describes the whole tree.
 #[derive(Clone, Copy)]
 pub(super) struct WholeRule {
     pub(super) branching: usize,
     pub(super) code: Option<Code>,
     pub(super) span: Span,
+    /// Number of generations, if one branching of each is open.
+    pub(super) open: Option<usize>,
 }

@@ -1,10 +1,11 @@
-//! A scene as text, a line for each link, orbit, group and parameter.
+//! Prints a scene, one line for each link, orbit (set of equal copies of one link), group and
+//! parameter.
 
 use std::fmt::{self, Display, Formatter};
 
 use super::{
-    BudgetRequest, DescribedTranslationalSpringDamper, Drive, Group, Layout, LineEnds, Link,
-    NodeMotion, Observable, Offset, Orbit, Parameter, PassiveTorques, Quantity, Reduction,
+    BudgetRequest, DescribedTranslationalSpringDamper, Drive, Group, Layout, LineEnds, Lineage,
+    Link, NodeMotion, Observable, Offset, Orbit, Parameter, PassiveTorques, Quantity, Reduction,
     Requests, Requirement, Scene, Sign, TransferRequest, WholeNode, WholeOrder,
 };
 
@@ -26,6 +27,7 @@ impl Display for Scene {
             spring_dampers,
             translational,
             reduction: _,
+            lineage: _,
             layout: _,
         } = self;
         writeln!(f, "scene {name}")?;
@@ -85,7 +87,7 @@ impl Display for WholeNode {
 }
 
 impl Scene {
-    /// Writes which links stand for the whole tree, if not all.
+    /// Writes which links represent the whole tree, if the scene does not hold all links.
     fn write_layout(&self, f: &mut Formatter<'_>) -> fmt::Result {
         match &self.layout {
             Layout::Unrolled => {}
@@ -94,6 +96,9 @@ impl Scene {
                 "{links} links in generations, {branching} under each; one of each:"
             )?,
             Layout::Links => writeln!(f, "in a loop over the links")?,
+        }
+        if let Some(Lineage { generations }) = self.lineage {
+            writeln!(f, "one branching open in each of {generations} generations")?;
         }
         if let Some(Reduction {
             order,
@@ -113,7 +118,7 @@ impl Scene {
         Ok(())
     }
 
-    /// Writes the orbits, and the groups of copies.
+    /// Writes the orbits (equal copies of a node) and the groups of sibling copies.
     fn write_orbits(&self, f: &mut Formatter<'_>) -> fmt::Result {
         for Orbit {
             name,
@@ -215,7 +220,7 @@ impl Scene {
         self.write_passive(passive, f)
     }
 
-    /// Writes, indented, the torques that are not zero.
+    /// Writes, indented, the nonzero passive torques.
     fn write_passive(&self, passive: &PassiveTorques, f: &mut Formatter<'_>) -> fmt::Result {
         let forces = [
             ("friction", &passive.friction, "N m s"),
@@ -238,7 +243,7 @@ impl Scene {
         Ok(())
     }
 
-    /// The names of links.
+    /// Returns the names of links, joined.
     fn names(&self, links: impl IntoIterator<Item = usize>) -> String {
         let names: Vec<&str> = links
             .into_iter()
@@ -264,36 +269,17 @@ impl Display for Requests {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         let Self {
             solve,
-            energies,
-            momenta,
-            modes,
-            symmetric,
             transfer,
             budget,
-            taylor,
-            positions,
-            transverse,
             small,
-            forces,
+            ..
         } = self;
         write!(f, "accelerations")?;
         if let Some(solve) = solve {
             write!(f, " by {}", solve.name())?;
         }
-        let named = [
-            (energies, "energies"),
-            (momenta, "momenta"),
-            (modes, "modes"),
-            (symmetric, "symmetric"),
-            (taylor, "taylor"),
-            (positions, "positions"),
-            (transverse, "transverse"),
-            (forces, "forces"),
-        ];
-        for (wanted, name) in named {
-            if *wanted {
-                write!(f, ", {name}")?;
-            }
+        for (name, _) in self.named() {
+            write!(f, ", {name}")?;
         }
         if !small.is_empty() {
             write!(f, ", small in {} sectors", small.len())?;
@@ -353,7 +339,7 @@ impl Display for TransferRequest {
     }
 }
 
-/// Truncated forms as they are written.
+/// Returns truncated forms in the notation of the attribute.
 fn orders(angle: &[u32], amplitude: &[u32]) -> impl Iterator<Item = String> {
     let angles = angle.iter().map(|order| format!("angle = {order}"));
     let amplitudes = amplitude.iter().map(|order| format!("amplitude = {order}"));

@@ -1,40 +1,43 @@
-//! Translational spring-dampers: straight springs, forces by a power of the distance and dampers
-//! between points of links, and guys from a link to the ground.
+//! Translational spring-dampers: straight springs, power-law forces and dampers between points of
+//! links, and guys (the same between a link and the ground).
 
 use std::collections::BTreeMap;
 
 use super::link_pairs::{PairRun, SpringDamperEnds};
 use super::{DescribedLinePotential, Layout, Link, LinkId, Offset, Quantity, Scene};
 
-/// What stores energy by the length of the line between two points, and a viscous damper along it.
+/// Potential energy as a function of the distance between two points, and a viscous damper along
+/// the line between them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DescribedTranslationalSpringDamper {
-    /// The clause in words, as in `between(a, b)`.
+    /// The clause in words, for messages, as in `between(a, b)`.
     pub what: String,
-    /// The points.
+    /// End points of the line.
     pub ends: LineEnds,
-    /// Terms of the energy that the line stores.
+    /// Terms of the line's potential energy.
     pub potentials: Vec<DescribedLinePotential>,
-    /// Viscous friction c of the damper, N s/m.
+    /// Viscous friction coefficient c of the damper, in N s/m.
     pub friction: Quantity,
 }
 
-/// The points between which a straight spring is.
+/// End points of a straight spring.
 #[derive(Debug, Clone, PartialEq)]
 pub enum LineEnds {
-    /// Points of links: of two, or of all copies of a node under one link, two by two.
+    /// Points on links: on two links, or on every two copies of a node that hang from the same
+    /// link.
     Links(SpringDamperEnds, [Offset; 2]),
-    /// A point of a link, and a place x, y that does not move, from the root's pivot, y upwards.
+    /// A point of a link, and a fixed point (x, y) in m, measured from the root's pivot with y
+    /// upwards.
     Guy(LinkId, Offset, [Quantity; 2]),
 }
 
 impl DescribedTranslationalSpringDamper {
-    /// What acts along the line: a "spring", or a "repulsion" alone.
+    /// Returns the word for the forces in messages: "spring", or "repulsion" if there is no spring.
     pub fn noun(&self) -> &'static str {
         DescribedLinePotential::noun(&self.potentials)
     }
 
-    /// The same with its clause, as in "straight spring `between(a, b)`".
+    /// Returns the forces with their clause, as in "straight spring `between(a, b)`".
     pub fn in_words(&self) -> String {
         let straight = match self.noun() {
             "spring" => "straight ",
@@ -43,8 +46,8 @@ impl DescribedTranslationalSpringDamper {
         format!("{straight}{} `{}`", self.noun(), self.what)
     }
 
-    /// Components of the points.
-    pub fn places(&self) -> [&Quantity; 4] {
+    /// Returns the components of the two end points.
+    pub fn end_components(&self) -> [&Quantity; 4] {
         match &self.ends {
             LineEnds::Links(_, [first, second]) => {
                 [&first.along, &first.lateral, &second.along, &second.lateral]
@@ -54,31 +57,33 @@ impl DescribedTranslationalSpringDamper {
     }
 }
 
-/// The line between two points, in the links that turn it.
+/// The vector between two points, as a sum over the links that rotate it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SpringLine {
     /// Index of the spring in [`Scene::translational`].
     pub spring_damper: usize,
-    /// The links that the points are on: the first one, and the second one unless it is the
-    /// ground.
+    /// Links that hold the end points: the first, and the second unless that end is on the ground.
     pub links: Vec<LinkId>,
-    /// Arms r_i of the line d = d₀ + Σ R(θ_i) r_i.
+    /// Vectors r_i in the frame of each link, in m. The line is d = d₀ + Σ R(θ_i) r_i, with the
+    /// rotation R by the link's angle.
     pub arms: Vec<(LinkId, Offset)>,
-    /// d₀: x, and y against the direction of links of angle 0.
+    /// Constant part d₀ in m: the x component, and the component opposite to the direction of links
+    /// of angle 0.
     pub offset: [Quantity; 2],
 }
 
-/// Lines of the same constants side by side, as [`PairRun`].
+/// Lines of straight springs between consecutive links that have the same constants, numbered as in
+/// [`PairRun`].
 #[derive(Debug, Clone, PartialEq)]
 pub struct SpringLineRun {
-    /// The first line.
+    /// The first line of the run.
     pub first: SpringLine,
-    /// Number of lines, each with the links behind those of the one before.
+    /// Number of lines. In each line, all link indices are larger by one than in the line before.
     pub count: usize,
 }
 
 impl SpringLineRun {
-    /// All lines.
+    /// Returns all lines of the run.
     fn lines(self) -> impl Iterator<Item = SpringLine> {
         let Self { first, count } = self;
         (0..count).map(move |place| {
@@ -93,32 +98,32 @@ impl SpringLineRun {
 }
 
 impl SpringLine {
-    /// Returns true if no angle changes the length: of less than two parts that turn by
-    /// themselves.
+    /// Returns true if no angle changes the length: fewer than two parts of the line rotate
+    /// independently.
     pub fn is_rigid(&self) -> bool {
         let is_fixed = self.offset.iter().all(Quantity::is_zero);
         self.arms.len() < 1 + usize::from(is_fixed)
     }
 }
 
-/// A link on the way from a point to the root.
+/// A link on the path from a point to the root.
 struct Step<'s> {
     link: usize,
-    /// The link below, whose pivot counts.
+    /// The child through which the path comes; `None` for the link that holds the point.
     via: Option<usize>,
-    /// The point of the link where the way goes on.
+    /// The point of the link from which the path starts or at which that child hangs.
     offset: &'s Offset,
 }
 
 impl Scene {
-    /// The lines of all straight springs, whose links are those of the whole tree.
+    /// Returns the lines of all straight springs, with indices of links in the whole tree.
     pub fn lines(&self) -> Vec<SpringLine> {
         let runs = self.line_runs().into_iter();
         runs.flat_map(SpringLineRun::lines).collect()
     }
 
-    /// The same in runs. Copies of a rule share their pivot: a line between them has no arms of
-    /// other links.
+    /// Returns the lines of [`lines`](Self::lines) in runs. Copies of a rule share their pivot, so
+    /// that a line between them has no arms of other links.
     pub fn line_runs(&self) -> Vec<SpringLineRun> {
         let mut runs = Vec::new();
         for (spring_damper, own) in self.translational.iter().enumerate() {
@@ -160,9 +165,9 @@ impl Scene {
         runs
     }
 
-    /// A link of the whole tree, and the index of its parent there. Copy c under link i of a
-    /// generation of n links is number c n + i of the next one.
-    fn place(&self, index: usize) -> Option<(&Link, Option<usize>)> {
+    /// Returns a link of the whole tree and the index of its parent. Copy c under link i of a
+    /// generation of n links has the number c n + i in the next generation.
+    fn link_and_parent(&self, index: usize) -> Option<(&Link, Option<usize>)> {
         let Layout::Generations { branching, .. } = self.layout else {
             let link = self.links.get(index)?;
             return Some((link, link.parent.map(|LinkId(parent)| parent)));
@@ -180,13 +185,13 @@ impl Scene {
         None
     }
 
-    /// The steps from a point of a link to the root.
-    fn way<'s>(&'s self, (link, at): (usize, &'s Offset)) -> Vec<Step<'s>> {
+    /// Returns the path from a point of a link to the root, as the links on it.
+    fn path_to_root<'s>(&'s self, (link, at): (usize, &'s Offset)) -> Vec<Step<'s>> {
         let (mut next, mut via, mut offset) = (Some(link), None, at);
         let mut steps = Vec::new();
         while let Some(link) = next {
             steps.push(Step { link, via, offset });
-            let Some((own, parent)) = self.place(link) else {
+            let Some((own, parent)) = self.link_and_parent(link) else {
                 break;
             };
             (via, offset, next) = (Some(link), &own.pivot, parent);
@@ -194,16 +199,17 @@ impl Scene {
         steps
     }
 
-    /// Arms of the line from the first point to the second one, or to the ground: those of the
-    /// second one's way less those of the first one's, as far as the ways are two.
+    /// Returns the arms of the line from the first point to the second one, or to the ground: those
+    /// on the second point's path to the root minus those on the first point's path. The common
+    /// part of the paths cancels.
     fn arms(
         &self,
         first: (usize, &Offset),
         second: Option<(usize, &Offset)>,
     ) -> Vec<(LinkId, Offset)> {
         let mut ways = [
-            self.way(first),
-            second.map_or_else(Vec::new, |second| self.way(second)),
+            self.path_to_root(first),
+            second.map_or_else(Vec::new, |second| self.path_to_root(second)),
         ];
         while let [Some(a), Some(b)] = ways.each_ref().map(|way| way.last())
             && a.via.is_some()

@@ -1,25 +1,26 @@
-//! Sectors whose differences can grow beside an in-phase motion.
+//! Transverse sectors: differences between identical copies that can grow while the copies move in
+//! phase.
 
 use super::{LinkId, NodeMotion, Scene};
 
-/// Copies that move in phase, and what hangs from them: the links whose small
-/// differences between the copies follow linear equations of their own.
+/// Copies in phase and all that hangs from them. Small differences between the copies follow
+/// separate linear equations.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct TransverseCopies {
-    /// Name of the scene's link that stands for the copies.
+    /// Name of the scene's link that represents the copies.
     pub name: String,
-    /// The first of its links; the others follow.
+    /// Index of the first link of the subtree; the others follow.
     pub first: LinkId,
-    /// Number of links that the scene has from there on in the subtree.
+    /// Number of the scene's links in the subtree.
     pub links: usize,
-    /// Copies under one link of the whole tree.
+    /// Number of copies under one link of the whole tree.
     pub copies: usize,
-    /// Links of the whole tree that hold such copies and move alike.
+    /// Number of links of the whole tree, all in phase, that hold such copies.
     pub holders: usize,
 }
 
 impl Scene {
-    /// The sectors of copies in phase, in the order of their links.
+    /// Returns the transverse sectors, in the order of their links.
     pub fn transverse_sectors(&self) -> Vec<TransverseCopies> {
         let Some(reduction) = &self.reduction else {
             return Vec::new();
@@ -56,7 +57,7 @@ impl Scene {
         sectors
     }
 
-    /// Number of links of a subtree, which stand one after the other.
+    /// Returns the number of links in a subtree, which have consecutive indices.
     fn subtree(&self, LinkId(first): LinkId) -> usize {
         let below = self.links[first + 1..].iter();
         let inside = below.take_while(|link| link.parent >= Some(LinkId(first)));

@@ -1,4 +1,4 @@
-//! From description nodes to templates.
+//! Conversion of the description's nodes to templates.
 
 use super::bodies::GivenProperties;
 use super::names::check_link;
@@ -11,15 +11,15 @@ use super::{Offset, Quantity};
 use crate::description::Node;
 use crate::report::{Faults, SizeMessage, TreeMessage};
 
-/// The joint from which a link hangs.
+/// The parent of a link and the joint at which it hangs.
 struct Parent {
     index: usize,
     joint: Offset,
 }
 
 impl TreeBuilder {
-    /// Adds the root and all that hangs from it. After an error the templates
-    /// still have their names and numbers of copies, but no meaningful bodies.
+    /// Adds the root and all its descendants. After an error the templates have names and numbers
+    /// of copies, but placeholder bodies.
     pub(super) fn add_root(&mut self, node: &Node, report: &mut Faults) {
         if let Some(copies) = node.copies.filter(|copies| copies.count > 1) {
             report.error(copies.span, TreeMessage::RootCopies);
@@ -27,10 +27,10 @@ impl TreeBuilder {
         self.add(node, None, report);
     }
 
-    /// Adds a link or a rule, and its children: once for all copies, or for each where
-    /// they differ.
+    /// Adds a link or a rule, and its children: once for all copies, or for each copy if they
+    /// differ.
     fn add(&mut self, node: &Node, parent: Option<&Parent>, report: &mut Faults) {
-        // Too many already, which the check of the tree's size reports.
+        // Stop here: the check of the tree's size will report it.
         if self.templates.len() > MAX_LINKS {
             return;
         }
@@ -55,7 +55,7 @@ impl TreeBuilder {
             template.name = node.name.to_string();
             template.node.clone_from(&template.name);
             links.push((template, properties));
-            // Further copies would say the same again.
+            // Further copies would cause the same messages.
             if !right(report) {
                 break;
             }
@@ -84,7 +84,7 @@ impl TreeBuilder {
         }
     }
 
-    /// The template of a link without those below it.
+    /// Creates the template of a link, without its children.
     fn described(
         &mut self,
         node: &Node,
@@ -108,7 +108,7 @@ impl TreeBuilder {
         (template, properties)
     }
 
-    /// Adds a link or a rule of known properties, and its children.
+    /// Adds a link or a rule with known properties, and its children.
     fn add_link(
         &mut self,
         node: &Node,
@@ -124,7 +124,12 @@ impl TreeBuilder {
                         branching: rule.branching,
                         code: rule.code,
                         span: first.span,
+                        open: rule.open.then_some(rule.count),
                     });
+                }
+                Some(_) if rule.open => {
+                    let needs = "a rule that describes the whole tree";
+                    report.error(first.span, TreeMessage::OpenBranching { needs });
                 }
                 Some(_) if rule.code == Some(Code::Loops) => {
                     let what = "a rule below other links".to_owned();
@@ -153,7 +158,7 @@ impl TreeBuilder {
         }
     }
 
-    /// Attachment of a link to its parent.
+    /// Evaluates the pivot of a link on its parent.
     fn pivot(
         &self,
         node: &Node,
@@ -174,7 +179,7 @@ impl TreeBuilder {
         }
     }
 
-    /// Adds the generations of a rule, the first of which is given.
+    /// Adds all generations of a rule; `first` is the template of the first one.
     fn add_generations(
         &mut self,
         node: &Node,
@@ -184,7 +189,7 @@ impl TreeBuilder {
         report: &mut Faults,
     ) {
         let span = first.span;
-        // The templates alone may be too many, before any copies.
+        // The number of templates alone may be too large, even without copies.
         if self.templates.len().saturating_add(rule.count) > MAX_LINKS {
             report.error(span, SizeMessage::TooManyLinks { limit: MAX_LINKS });
             return;
@@ -199,23 +204,56 @@ impl TreeBuilder {
                 return;
             };
             let above = generation.checked_sub(1).map(|_| self.templates.len() - 1);
+            let is_open = rule.open && above.is_some();
             let hanging = above.and_then(|above| self.templates.get(above)?.body.joint.clone());
             self.templates.push(Template {
                 name: format!("{}_{}", first.name, generation + 1),
                 node: first.node.clone(),
                 span,
                 parent: above.or(first.parent),
-                copies: if above.is_some() {
-                    rule.branching
-                } else {
-                    first.copies
+                copies: match above {
+                    Some(_) if is_open => 1,
+                    Some(_) => rule.branching,
+                    None => first.copies,
                 },
-                number: None,
+                number: is_open.then_some(1),
                 origin: self.templates.len(),
                 body,
                 pivot: hanging.unwrap_or_else(|| first.pivot.clone()),
                 passive: PassiveTorques::of(&given),
             });
+        }
+        if rule.open {
+            self.add_closed(rule.count);
+        }
+    }
+
+    /// Adds the closed siblings of the open links, whose path of `generations` templates is the
+    /// last that was added. All links of one generation below a closed sibling move in phase, and
+    /// become one link with their total mass, inertia and passive torques.
+    fn add_closed(&mut self, generations: usize) {
+        let root = self.templates.len() - generations;
+        for branching in (1..generations).rev() {
+            let mut parent = root + branching - 1;
+            for generation in branching..generations {
+                let (own, copies) = (
+                    &self.templates[root + generation],
+                    1 << (generation - branching),
+                );
+                let mut closed = Template {
+                    name: own.name.clone(),
+                    node: own.node.clone(),
+                    parent: Some(parent),
+                    number: (generation == branching).then_some(2),
+                    body: own.body.clone(),
+                    pivot: own.pivot.clone(),
+                    passive: own.passive.clone(),
+                    ..*own
+                };
+                closed.take_copies(copies);
+                parent = self.templates.len();
+                self.templates.push(closed);
+            }
         }
     }
 }
@@ -225,7 +263,7 @@ fn missing_joint(node: &Node, report: &mut Faults) {
     report.error(node.name.span(), TreeMessage::MissingJoint { link });
 }
 
-/// The pivot itself.
+/// Returns the point at the pivot itself, the origin of the link's frame.
 fn origin() -> Offset {
     Offset {
         along: Quantity::zero(),

@@ -1,4 +1,4 @@
-//! Copies that differ: `each(...)` gives every copy of a link a value of its own.
+//! Copies that differ: `each(...)` gives every copy of a link its own value.
 
 use quote::format_ident;
 
@@ -8,8 +8,8 @@ use super::{LinkId, Orbit, Scene};
 use crate::description::{Node, Property, Value};
 use crate::report::{Faults, ValueMessage};
 
-/// The copies of a node one by one, each with its own values, where the description says
-/// that they differ; `None` otherwise, and after reporting a wrong `each(...)`.
+/// Returns the copies of a node one by one, each with its own values, if the description gives them
+/// by `each(...)`. Returns `None` otherwise, and after reporting a mistake in `each(...)`.
 pub(super) fn unequal_copies(node: &Node, is_rule: bool, report: &mut Faults) -> Option<Vec<Node>> {
     let before = report.diagnostics().len();
     let copies = node.copies.map_or(1, |copies| copies.count as usize);
@@ -36,7 +36,7 @@ pub(super) fn unequal_copies(node: &Node, is_rule: bool, report: &mut Faults) ->
     right.then(|| (0..copies).map(|copy| single(node, copy)).collect())
 }
 
-/// One copy of a node, without what hangs from it.
+/// Returns one copy of a node, without its children.
 fn single(node: &Node, copy: usize) -> Node {
     let properties = node.properties.iter().map(|property| {
         let own = match &property.value {
@@ -59,31 +59,31 @@ fn single(node: &Node, copy: usize) -> Node {
 }
 
 impl Template {
-    /// Returns true if two copies of one node do not differ.
+    /// Returns true if two copies of a node have equal values.
     pub(super) fn is_like(&self, other: &Self) -> bool {
         let same_body = self.body == other.body && self.pivot == other.pivot;
         same_body && self.passive == other.passive
     }
 }
 
-/// Copies of one node that differ, or hang in copies that do.
+/// A node whose copies differ, or hang from copies of another node that differ.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct UnequalNode {
-    /// Name of the node.
+    /// Name of the node in the description.
     pub name: String,
-    /// All its links.
+    /// All links that are copies of the node.
     pub links: Vec<LinkId>,
-    /// Indices of their symmetric coordinates, the mean first.
+    /// Indices of the symmetric coordinates of these links, the mean first.
     pub coordinates: Vec<usize>,
 }
 
 impl Scene {
-    /// Returns true if copies of a node of the description differ.
+    /// Returns true if the copies of some node differ.
     pub fn has_unequal_copies(&self) -> bool {
         self.orbits.iter().any(Orbit::is_of_unequal)
     }
 
-    /// The nodes whose copies differ, with the scene's symmetric coordinates.
+    /// Returns the nodes whose copies differ. `coordinates` are the scene's symmetric coordinates.
     pub fn unequal_nodes(&self, coordinates: &[Coordinate]) -> Vec<UnequalNode> {
         let mut nodes: Vec<UnequalNode> = Vec::new();
         for Orbit { node, links, .. } in self.orbits.iter().filter(|o| o.is_of_unequal()) {
@@ -104,7 +104,7 @@ impl Scene {
                     .all(|(link, _)| node.links.contains(link))
                     .then_some(index)
             };
-            // Means stand before differences.
+            // Means come before differences.
             node.coordinates = coordinates.iter().enumerate().filter_map(own).collect();
         }
         nodes
@@ -112,7 +112,8 @@ impl Scene {
 }
 
 impl Orbit {
-    /// Returns true if its node has copies that are not in it.
+    /// Returns true if the node of this orbit (set of equal copies of one link) also has copies in
+    /// other orbits.
     pub fn is_of_unequal(&self) -> bool {
         self.name != self.node
     }

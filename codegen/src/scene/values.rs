@@ -1,4 +1,5 @@
-//! Expressions to quantities: exact arithmetic, parameters, conditions.
+//! Conversion of expressions to quantities, with exact arithmetic; collects parameters and
+//! conditions.
 
 use proc_macro2::{Ident, Span};
 
@@ -8,29 +9,29 @@ use crate::description::{Expression, ExpressionKind, ParameterClause};
 use crate::exact::{ExactError, Rational};
 use crate::report::{Faults, SyntaxMessage, ValueMessage, nearest};
 
-/// Use of a value.
+/// Purpose of a value: its name, unit and condition.
 pub(super) struct Usage<'a> {
-    /// Name of the value, as in "mass of `child`".
+    /// Name of the value in messages, as in "mass of `child`".
     pub(super) what: String,
-    /// Unit of the value; empty for a pure number, and for a part of a function of time.
+    /// Unit of the value; empty for a pure number and for an operand of a function of time.
     pub(super) unit: &'a str,
-    /// The condition on its sign.
+    /// Condition on the sign of the value.
     pub(super) sign: Sign,
 }
 
-/// Parameters and conditions met so far.
+/// Parameters and conditions found so far.
 #[derive(Default)]
 pub(super) struct Values {
     pub(super) parameters: Vec<Parameter>,
-    /// The first place of each parameter.
+    /// Span of the first use or declaration of each parameter.
     pub(super) spans: Vec<Span>,
     pub(super) requirements: Vec<Requirement>,
-    /// True if all parameters are declared, and so known from the start.
+    /// True if the description declares all parameters.
     declared: bool,
 }
 
 impl Values {
-    /// Starts with the parameters that the description declares, if it does.
+    /// Creates the list of parameters; if the description declares any, with these.
     pub(super) fn declared(clause: Option<&ParameterClause>, report: &mut Faults) -> Self {
         let mut values = Self::default();
         for name in clause.iter().flat_map(|clause| &clause.names) {
@@ -45,7 +46,7 @@ impl Values {
             }
             values.add(name);
         }
-        // What is unreadable may have declared more.
+        // The part that could not be parsed may have declared more.
         values.declared = clause.is_some_and(|clause| !clause.damaged);
         values
     }
@@ -65,7 +66,7 @@ impl Values {
         ValueMessage::UndeclaredParameter { name, nearest }
     }
 
-    /// The value of an expression; `None` after reporting what is wrong.
+    /// Evaluates an expression; returns `None` after reporting a mistake.
     pub(super) fn evaluate(
         &mut self,
         expression: &Expression,
@@ -79,8 +80,8 @@ impl Values {
         self.accept(value, usage, expression.span, report)
     }
 
-    /// Checks a value against what it is for: literals now, parameters by a
-    /// requirement for the model.
+    /// Checks a value against its conditions: literals at once, expressions of parameters by a
+    /// requirement that the model checks.
     pub(super) fn accept(
         &mut self,
         value: Quantity,
@@ -120,7 +121,8 @@ impl Values {
         Some(value)
     }
 
-    /// Requires that gravity points where it is written to point: all directions depend on it.
+    /// Adds the requirement that gravity keeps the sign that it is written with, because all
+    /// directions depend on it.
     pub(super) fn require_direction(&mut self, gravity: &Quantity, what: &str) {
         let sign = match gravity.is_written_negative() {
             true => Sign::Standing,
@@ -132,7 +134,7 @@ impl Values {
         }
     }
 
-    /// A part of an expression.
+    /// Evaluates an operand of an expression.
     pub(super) fn operand(
         &mut self,
         expression: &Expression,
@@ -178,7 +180,8 @@ impl Values {
         }
     }
 
-    /// The parameter of a name. `alone` says that it is the whole value.
+    /// Returns the parameter with the given name. `alone` is true if the value consists only of
+    /// this parameter.
     fn parameter(
         &mut self,
         name: &Ident,
@@ -217,13 +220,13 @@ impl Values {
     }
 }
 
-/// The values, all of them formed even if one is wrong.
+/// Collects the values. All are evaluated, even if one is `None`.
 pub(super) fn all<T>(values: impl Iterator<Item = Option<T>>) -> Option<Vec<T>> {
     let values: Vec<Option<T>> = values.collect();
     values.into_iter().collect()
 }
 
-/// Reports the declared parameters that no value names.
+/// Reports declared parameters that no value uses.
 pub(super) fn check_used(parameters: &[Parameter], spans: &[Span], report: &mut Faults) {
     for (parameter, &span) in parameters.iter().zip(spans) {
         if parameter.doc.is_empty() {
@@ -233,7 +236,7 @@ pub(super) fn check_used(parameters: &[Parameter], spans: &[Span], report: &mut 
     }
 }
 
-/// The message for a failed operation on exact numbers.
+/// Returns the message for a failed operation on exact numbers.
 pub(super) fn message_for(error: ExactError) -> ValueMessage {
     match error {
         ExactError::DivisionByZero => ValueMessage::DivisionByZero,
@@ -243,10 +246,10 @@ pub(super) fn message_for(error: ExactError) -> ValueMessage {
     }
 }
 
-/// Numbers of more characters are shown rounded.
+/// Largest number of characters of a number in a message; longer ones are rounded.
 const LONGEST_NUMBER: usize = 30;
 
-/// The message about a number of the wrong sign or magnitude.
+/// Returns the message about a number of the wrong sign or magnitude.
 fn violation(
     number: &Rational,
     what: &str,
@@ -258,21 +261,23 @@ fn violation(
         value = format!("{:e}", number.to_f64());
     }
     match sign {
-        Sign::NonNegative if number.is_negative() => Some(ValueMessage::Negative { what, value }),
-        Sign::Positive if number.is_negative() || number.is_zero() => {
-            Some(ValueMessage::NotPositive { what, value })
+        Sign::NonNegative if number.is_negative() => {
+            return Some(ValueMessage::Negative { what, value });
         }
-        _ if !magnitudes.hold(number.to_f64()) => Some(ValueMessage::Magnitude {
-            what,
-            value,
-            range: magnitudes.text,
-        }),
-        _ => None,
+        Sign::Positive if number.is_negative() || number.is_zero() => {
+            return Some(ValueMessage::NotPositive { what, value });
+        }
+        Sign::Any | Sign::Hanging | Sign::Standing | Sign::NonNegative | Sign::Positive => {}
     }
+    (!magnitudes.hold(number.to_f64())).then_some(ValueMessage::Magnitude {
+        what,
+        value,
+        range: magnitudes.text,
+    })
 }
 
-/// The message about a value whose numbers are too long to go on with or do not
-/// fit an `f64`: silently they would become zero or infinite.
+/// Returns the message about a value whose numbers are too long, or do not fit an `f64` and would
+/// become zero or infinite; `None` for other values.
 pub(super) fn unrepresentable(value: &Quantity) -> Option<ValueMessage> {
     value.atoms().into_iter().rev().find_map(|atom| {
         let QuantityAtom::Exact(number) = atom else {

@@ -1,26 +1,27 @@
-//! Differences between languages.
+//! Syntax of the other languages.
 
-/// A language that programs can be written in.
+/// A language to which programs can be translated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Language {
     /// C99, in `double`.
     C,
-    /// Python with NumPy: elements of arguments may be arrays of states.
+    /// Python with NumPy; elements of array arguments may themselves be arrays, one element per
+    /// state.
     Numpy,
     /// Julia.
     Julia,
 }
 
-/// The head of a function.
+/// Name, arguments and results of a translated function.
 pub(super) struct Head {
     pub(super) name: String,
-    /// Arrays, in their order.
+    /// Names of the array arguments, in order.
     pub(super) arguments: Vec<String>,
-    /// True if time comes behind the constants.
+    /// True if the time is an argument, which then follows the constants.
     pub(super) time: bool,
     /// Name of the array of results.
     pub(super) outputs: &'static str,
-    /// Number of results.
+    /// Number of results of the function.
     pub(super) count: usize,
 }
 
@@ -48,7 +49,8 @@ impl Language {
         }
     }
 
-    /// Functions of C stand beside those of all other scenes.
+    /// Returns the name of a function. In C it contains the scene's name, because C has no
+    /// namespaces.
     pub(super) fn function_name(self, scene: &str, function: &str) -> String {
         match self {
             Self::C => format!("{}_{function}", snake(scene)),
@@ -63,7 +65,7 @@ impl Language {
         }
     }
 
-    /// The shortest decimal that is read as the same bits.
+    /// Returns the shortest decimal number that is read back as the same bits.
     pub(super) fn number(self, value: f64) -> String {
         match value < 0.0 {
             true => format!("({value:?})"),
@@ -85,7 +87,7 @@ impl Language {
         }
     }
 
-    /// A result in its place, with a remark.
+    /// Returns the line that stores a result at its index, with a comment.
     pub(super) fn output(self, array: &str, index: usize, value: &str, remark: &str) -> String {
         let place = self.element(array, index);
         let end = if self == Self::C { ";" } else { "" };
@@ -96,7 +98,7 @@ impl Language {
         }
     }
 
-    /// The first lines of a function.
+    /// Returns the first lines of a function.
     fn begin(self, head: &Head) -> String {
         let Head {
             name,
@@ -138,7 +140,8 @@ impl Language {
         }
     }
 
-    /// A function that fills an array with lines of [`output`](Self::output).
+    /// Returns a function that fills an array, with one line of [`output`](Self::output) for each
+    /// value.
     pub(super) fn filled(self, head: &Head, values: Vec<String>) -> Vec<String> {
         let (array, count) = (head.outputs, head.count);
         let mut lines = vec![self.comment(&format!(
@@ -159,7 +162,7 @@ impl Language {
         lines
     }
 
-    /// A function of an entry point.
+    /// Returns the function for an entry point.
     pub(super) fn function(
         self,
         head: &Head,
@@ -196,7 +199,7 @@ impl Language {
     }
 }
 
-/// `BranchedDouble` as `branched_double`.
+/// Converts `BranchedDouble` to `branched_double`.
 fn snake(name: &str) -> String {
     let mut snake = String::new();
     for letter in name.chars() {

@@ -1,5 +1,6 @@
-//! Programs in other languages: one function for each entry point, one operation a line,
-//! in the order of the program, so that results have the same bits where sines have.
+//! Translation of programs to other languages: one function per entry point and one operation per
+//! line, in the order of the program. Results are identical bit for bit if the sines and cosines of
+//! both languages are.
 
 mod language;
 mod names;
@@ -13,8 +14,8 @@ use crate::functions::{Argument, Purpose};
 use crate::program::{ConstantId, ConstantOp, Entry, Op, Program, Setup, ValueId};
 use crate::scene::Scene;
 
-/// Writes a program in a language; `None` where the code is loops, which are functions of the
-/// runtime. Taylor coefficients, whose recurrences are the runtime's too, are left out.
+/// Translates a program; returns `None` if the code is loops, which are functions of the runtime.
+/// Taylor coefficients are left out, because their recurrences are in the runtime too.
 pub fn translate(language: Language, scene: &Scene, program: &Program) -> Option<String> {
     if scene.in_loops() {
         return None;
@@ -49,7 +50,7 @@ impl Translation<'_> {
         lines.join("\n")
     }
 
-    /// Remarks that a reader needs.
+    /// Returns the comment at the head of the file.
     fn title(&self) -> Vec<String> {
         let Scene {
             name,
@@ -76,7 +77,7 @@ impl Translation<'_> {
         lines.map(|line| self.language.comment(line)).collect()
     }
 
-    /// The function that forms the constants of the model of its parameters.
+    /// Returns the function that computes the model's constants from its parameters.
     fn constants(&self) -> Vec<String> {
         let language = self.language;
         let setup = &self.program.setup;
@@ -100,7 +101,7 @@ impl Translation<'_> {
                 (None, ConstantOp::Add(a, b)) => format!("{} + {}", at(*a), at(*b)),
                 (None, ConstantOp::Sub(a, b)) => format!("{} - {}", at(*a), at(*b)),
             };
-            // A number says itself what it is.
+            // A number needs no comment.
             let remark = match definition.op {
                 ConstantOp::Number(_) => "",
                 _ => &definition.name,
@@ -110,7 +111,8 @@ impl Translation<'_> {
         language.filled(&head, values.collect())
     }
 
-    /// number · a · a · b / (c · d), each product from the left, as the interpreter forms it.
+    /// Returns the product number · a · a · b / (c · d) as code, with factors in the order in which
+    /// the interpreter multiplies.
     fn product(&self, number: String, powers: &[(ConstantId, i32)]) -> String {
         let (mut above, mut below) = (vec![number], Vec::new());
         for &(id, power) in powers {

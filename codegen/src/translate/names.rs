@@ -6,7 +6,7 @@ use crate::functions::Argument;
 
 use crate::program::{Entry, ValueId};
 
-/// Words that some language keeps for itself, and what functions call by these names.
+/// Reserved words of the languages, and functions that the translated code calls.
 #[rustfmt::skip]
 const TAKEN: &[&str] = &[
     "abstract", "and", "as", "assert", "async", "auto", "await", "baremodule", "begin", "break",
@@ -40,23 +40,48 @@ impl Names {
         names
     }
 
-    /// The name of an argument; those of several sectors or sets have numbers.
+    /// Returns the name of an argument; if there are several sectors or sets, their arguments are
+    /// numbered.
     pub(super) fn argument(&self, argument: Argument) -> String {
         let name = argument.name();
         match argument {
             Argument::Difference(number)
             | Argument::DifferenceRate(number)
             | Argument::Prescribed(number) => format!("{name}_{number}"),
-            _ => name.to_owned(),
+            Argument::Time
+            | Argument::Theta
+            | Argument::Omega
+            | Argument::AbsoluteMomenta
+            | Argument::Coordinates
+            | Argument::Rates
+            | Argument::Momenta
+            | Argument::Forces
+            | Argument::Alpha
+            | Argument::Actions
+            | Argument::SmallDifferences
+            | Argument::SmallRates
+            | Argument::Torques
+            | Argument::SmallTorques
+            | Argument::Absolute
+            | Argument::Symmetric
+            | Argument::Constants
+            | Argument::Body
+            | Argument::Motion
+            | Argument::Response
+            | Argument::Sums
+            | Argument::Elimination
+            | Argument::Carried
+            | Argument::Pivot
+            | Argument::Given(_) => name.to_owned(),
         }
     }
 
-    /// Says how a value is written.
+    /// Sets the text by which a value is referred to.
     pub(super) fn is(&mut self, id: ValueId, text: String) {
         self.texts.insert(id, text);
     }
 
-    /// Gives a value a name of its own, the wanted one if it is free.
+    /// Assigns a variable name to a value: `wanted`, if that name is free.
     pub(super) fn own(&mut self, id: ValueId, wanted: Option<&String>) -> String {
         let ascii = wanted.filter(|name| name.is_ascii());
         let stem = ascii.cloned().unwrap_or_else(|| format!("v{}", id.0));
@@ -71,7 +96,7 @@ impl Names {
         name
     }
 
-    /// How a value is written that is known.
+    /// Returns the text by which a value is referred to.
     pub(super) fn of(&self, id: ValueId) -> String {
         match self.texts.get(&id) {
             Some(text) => text.clone(),

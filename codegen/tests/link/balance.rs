@@ -17,7 +17,7 @@ struct Algebra<'s> {
     /// The link's own unit of length.
     unit: Formula,
     /// 1 where the link is held, 0 where it is free.
-    held: i64,
+    prescribed: i64,
 }
 
 /// Reciprocal of the unit of torques of a bush: of the inertia of its leaf `right` about
@@ -115,7 +115,10 @@ impl Algebra<'_> {
         for (index, id) in motion.into_iter().enumerate() {
             values.push((stand_in(Argument::Motion, index), self.s(id)));
         }
-        values.push((stand_in(Argument::Motion, 6), Formula::integer(self.held)));
+        values.push((
+            stand_in(Argument::Motion, 6),
+            Formula::integer(self.prescribed),
+        ));
         values
     }
 
@@ -128,7 +131,7 @@ impl Algebra<'_> {
         };
         let joint = |index| self.s(stand_in(Argument::Motion, index));
         let outside = match self.strips.has_outside_torques {
-            true => Formula::integer(PER_TORQUE * (1 - self.held)),
+            true => Formula::integer(PER_TORQUE * (1 - self.prescribed)),
             false => Formula::zero(),
         };
         let terms = [
@@ -216,7 +219,7 @@ impl Algebra<'_> {
 
     /// Fails unless these are the response and, behind it, what is kept of the balance of a
     /// link that has the given acceleration.
-    fn assert_held(&self, found: &[Formula], mass: &Formula, none: &[(SymbolId, Formula)]) {
+    fn assert_prescribed(&self, found: &[Formula], mass: &Formula, none: &[(SymbolId, Formula)]) {
         let (b, s) = (&self.balance, &self.balance.symbols);
         let given = self.given_acceleration();
         let along = |i: usize| self.named(&b.first_moment[i]);
@@ -280,7 +283,12 @@ impl Algebra<'_> {
     }
 }
 
-fn with_algebra(text: &str, own_unit: bool, held: i64, work: impl FnOnce(&Algebra<'_>) + Send) {
+fn with_algebra(
+    text: &str,
+    own_unit: bool,
+    prescribed: i64,
+    work: impl FnOnce(&Algebra<'_>) + Send,
+) {
     let stages = compiled(text, "loops");
     let (mechanics, program) = (&stages.mechanics, &stages.program);
     let balance = mechanics.link.as_ref().expect("a tree in loops");
@@ -296,7 +304,7 @@ fn with_algebra(text: &str, own_unit: bool, held: i64, work: impl FnOnce(&Algebr
             balance,
             strips,
             unit,
-            held,
+            prescribed,
         };
         work(&algebra);
     })
@@ -318,9 +326,9 @@ fn the_functions_of_a_held_link_are_the_balance() {
         let (b, s) = (algebra.balance, &algebra.balance.symbols);
         let below = (Argument::Sums, algebra.below());
         let inner = algebra.outputs("inner", &[below]);
-        algebra.assert_held(&inner, &algebra.s(s.composite[3]), &[]);
+        algebra.assert_prescribed(&inner, &algebra.s(s.composite[3]), &[]);
         let leaf = algebra.outputs("leaf", &[]);
-        algebra.assert_held(&leaf, &Formula::zero(), &algebra.childless());
+        algebra.assert_prescribed(&leaf, &Formula::zero(), &algebra.childless());
         let split = algebra.strips.length(Argument::Response);
         let given = [
             (Argument::Elimination, inner[split..].to_vec()),

@@ -1,7 +1,8 @@
-//! A plugin for [Bevy](https://bevy.org) that moves pendulum trees, and a hand that holds them.
+//! A plugin for [Bevy](https://bevy.org) that moves pendulum trees and lets a hand hold them.
 //!
-//! A game spawns a [`Swaying`] tree from a description, reads where its links are, and adds a [`Hand`] to the
-//! entity while the mouse is down. Trees move in the fixed steps of the game.
+//! A game spawns a [`Swaying`] tree from a description, reads the positions of its links, and adds
+//! a [`Hand`] to the entity while the mouse button is pressed. Trees move in the fixed time steps
+//! of the game.
 
 use bevy_app::{App, FixedUpdate, Plugin};
 use bevy_ecs::prelude::{Component, Query, Res};
@@ -13,7 +14,7 @@ use branched_pendulum_trees::PendulumTree;
 
 type Equations = UnderTorques<PendulumTree<f32>, Vec<f32>>;
 
-/// Moves all [`Swaying`] trees in `FixedUpdate`.
+/// Plugin that moves all [`Swaying`] trees in `FixedUpdate`.
 pub struct SwayingPlugin;
 
 impl Plugin for SwayingPlugin {
@@ -34,15 +35,15 @@ pub struct Swaying {
 pub struct Hand {
     /// Number of the link, in the order of the angles.
     pub link: usize,
-    /// Place of the hand, m from the root's pivot, y upwards.
+    /// Position of the hand in m, relative to the root's pivot, y upwards.
     pub at: [f32; 2],
 }
 
 impl Swaying {
-    /// A tree at rest at these angles (rad), one a link.
+    /// Creates a tree at rest at these angles (rad), one for each link.
     ///
     /// # Errors
-    /// A description that is wrong, angles of another number.
+    /// Fails if the description is wrong or the number of angles is not the number of links.
     pub fn new(description: &str, angles: &[f32]) -> Result<Self, Box<dyn std::error::Error>> {
         let tree = PendulumTree::parse(description)?.cast(|number| number as f32);
         let still = UnderTorques::of(tree.clone(), vec![0.0; tree.links()]);
@@ -51,26 +52,27 @@ impl Swaying {
         Ok(Self { tree, frames })
     }
 
-    /// Returns the ends of all links, m from the root's pivot, y upwards.
+    /// Returns the ends of all links in m, relative to the root's pivot, y upwards.
     pub fn ends(&self) -> Vec<[f32; 2]> {
         self.tree.points(LinkPoint::End, self.halves().0)
     }
 
-    /// Returns the energy, J, against that of all links hanging still.
+    /// Returns the energy in J, relative to all links hanging at rest.
     pub fn energy(&self) -> f32 {
         let (theta, omega) = self.halves();
         let still = vec![0.0; theta.len()];
         self.tree.energy_of(theta, omega) - self.tree.energy_of(&still, &still)
     }
 
-    /// Angles (rad) and their rates (rad/s).
+    /// Splits the state into angles (rad) and their rates (rad/s).
     fn halves(&self) -> (&[f32], &[f32]) {
         self.frames.state().split_at(self.tree.links())
     }
 
-    /// Torques of a spring and a damper between the end of a link and the hand. They stay the same for a step of
-    /// `step` seconds, which bounds how stiff they may be: the point as it feels a force, of mass m, swings with
-    /// the rate 1 / (2 `step`), critically damped.
+    /// Returns the torques of a spring and a damper between the end of a link and the hand. They
+    /// are constant during a step of `step` seconds, which limits their stiffness: they are chosen
+    /// so that the held point, with its effective mass m, moves critically damped with the
+    /// frequency 1 / (2 `step`) (rad/s).
     fn pull(&self, hand: &Hand, step: f32) -> Vec<f32> {
         let (theta, omega) = self.halves();
         let mut forces = vec![[0.0; 2]; theta.len()];

@@ -1,5 +1,5 @@
-//! Dense output: a motion that is kept, and its state at any time, to the accuracy of the
-//! steps.
+//! Dense output: stores a motion and returns its state at any time, as accurately as the
+//! integrator's steps.
 
 use branched_pendulum::prelude::*;
 

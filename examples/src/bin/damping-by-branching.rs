@@ -1,12 +1,12 @@
-//! Damping by branching: a trunk without friction gives its energy to branches that have some,
-//! the better the larger it sways, and best where the branches open and close twice as fast
-//! (B. Theckes, E. de Langre and X. Boutillon, Bioinspir. Biomim. 6, 046010, 2011).
+//! Damping by branching: a trunk without friction gives its energy to branches with friction. This
+//! works the better the more the trunk sways, and best if the branches open and close at twice its
+//! frequency (B. Theckes, E. de Langre and X. Boutillon, Bioinspir. Biomim. 6, 046010, 2011).
 
 use branched_pendulum::analysis::{AtRest, equilibrium};
 use branched_pendulum::prelude::*;
 
-/// A standing Y on springs. Friction brakes how the branches open and close, and nothing else: by
-/// small motions it is never felt where both lean to one side.
+/// A standing Y on springs. Friction acts only on the opening and closing of the branches: while
+/// both lean to the same side, small motions do not feel it.
 #[branched_pendulum(
     gravity = -9.80665,
     trunk: rod(mass = 0.3, length = 0.4, spring = 20.0) [
@@ -18,9 +18,9 @@ use branched_pendulum::prelude::*;
 )]
 struct Y;
 
-/// Moment of inertia of a branch about its pivot, kg m².
+/// Moment of inertia of a branch about its pivot, in kg m².
 const INERTIA: f64 = 0.1 * 0.3 * 0.3 / 3.0;
-/// Amplitudes of the branches at the release, rad.
+/// Amplitudes of the branches at the release, in rad.
 const AMPLITUDES: [f64; 4] = [0.05, 0.1, 0.2, 0.3];
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {

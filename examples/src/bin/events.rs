@@ -1,12 +1,12 @@
-//! Events: when does a link of a double pendulum turn over, and where does it turn back
-//! before that?
+//! Events: the times at which a link of a double pendulum turns over, and the turning points
+//! before.
 
 use std::f64::consts::PI;
 
 use branched_pendulum::integrate::{Crossing, Event};
 use branched_pendulum::prelude::*;
 
-/// Two rods, one below the other.
+/// Two rods, the second hanging from the first.
 #[branched_pendulum(
     gravity = 9.80665,
     upper: rod(mass = 0.2, length = 0.3) [lower: rod(mass = 0.1, length = 0.2)],

@@ -1,4 +1,4 @@
-//! A tree, its motion from a release, and the energy, which is kept.
+//! First motion: a tree, its motion from a release, and its conserved energy.
 
 use branched_pendulum::prelude::*;
 

@@ -1,11 +1,11 @@
-//! Forces between points: a Y that two guys hold upright, with magnets on its arms that repel each
-//! other. Without the guys it falls.
+//! Forces between points: two guys (straight springs to the ground) hold a Y upright, and magnets
+//! on its arms repel each other. Without the guys it falls.
 
 use branched_pendulum::prelude::*;
 
-/// A mast without any spring in its pivot, and two arms on springs. The guys are taut wherever
-/// they hold the mast: a straight spring pushes where a slack rope does not. The magnets are dipoles
-/// across the plane, of the strength μ₀ m²/(4 π).
+/// A mast without a spring in its pivot, and two arms on springs. The guys must stay taut: a
+/// straight spring would push when a slack rope does not. The magnets are dipoles perpendicular to
+/// the plane, of the strength μ₀ m²/(4 π).
 #[branched_pendulum(
     gravity = -9.80665,
     mast: rod(mass = 0.3, length = 0.4) [
@@ -19,7 +19,7 @@ use branched_pendulum::prelude::*;
 )]
 struct Y;
 
-/// The links, in the order of the description.
+/// Indices of the links, in the order of the description.
 const MAST: usize = 0;
 const LEFT: usize = 1;
 const RIGHT: usize = 2;

@@ -1,9 +1,9 @@
-//! An ensemble: 1024 releases of a double pendulum at once, several in a vector register,
-//! and how far neighbours have parted.
+//! An ensemble: 1024 releases of a double pendulum are integrated together, several in each vector
+//! register, and the distances between neighbours are printed.
 
 use branched_pendulum::prelude::*;
 
-/// Two rods, one below the other.
+/// Two rods, the second hanging from the first.
 #[branched_pendulum(
     gravity = 9.80665,
     upper: rod(mass = 0.2, length = 0.3) [lower: rod(mass = 0.1, length = 0.2)],

@@ -1,4 +1,4 @@
-//! Small motions: the frequencies and shapes of the paper's tree.
+//! Small oscillations: frequencies and shapes of the modes of the paper's tree.
 
 use branched_pendulum::analysis::{Modes, ModesError};
 use branched_pendulum::prelude::*;

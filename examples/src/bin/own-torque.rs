@@ -1,4 +1,4 @@
-//! A torque of one's own: gusts of wind that drag at the ends of a branch.
+//! A user-defined torque: gusts of wind that drag at the ends of a branch.
 
 use branched_pendulum::prelude::*;
 use branched_pendulum::system::{LinkPoint, UnderTorques};

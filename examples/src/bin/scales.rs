@@ -1,5 +1,5 @@
-//! Energy by scale: what all copies of a tree of 31 rods do together, and what the copies of
-//! each generation do against each other.
+//! Energy by scale, for a tree of 31 rods: the energy of the mean motion of all copies, and of the
+//! differences between the copies in each generation.
 
 use branched_pendulum::prelude::*;
 use branched_pendulum::sectors::{ScaleBudget, Scales};

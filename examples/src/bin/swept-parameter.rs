@@ -1,8 +1,9 @@
-//! A parameter: the same tree with friction of many sizes, all in the lanes of one run.
+//! A parameter sweep: the same tree with many coefficients of friction, all in the vector registers
+//! of one run.
 
 use branched_pendulum::prelude::*;
 
-/// Two equal links on one, whose pivots have friction.
+/// Two equal links that hang from one, with friction in the pivots.
 #[branched_pendulum(
     gravity = 9.80665,
     parent(mass = 0.12880, com = 0.084, inertia = 1.88e-3, joint = 0.27, friction = friction) [

@@ -1,8 +1,8 @@
-//! Taylor series: the energy of a tree over a hundred seconds, kept to the last digits.
+//! Taylor series: the energy of a tree over a hundred seconds is conserved to the last digits.
 
 use branched_pendulum::prelude::*;
 
-/// Seven rods: each carries two of half its mass and seven tenths of its length.
+/// Seven rods: each carries two rods with half its mass and 0.7 times its length.
 #[branched_pendulum(
     gravity = 9.80665,
     rod: generations(count = 3, branching = 2, shape = rod, mass = 0.12, length = 0.3,

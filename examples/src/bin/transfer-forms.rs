@@ -1,5 +1,5 @@
-//! W, the power that the rest of the paper's tree gives its antiphase mode, in every form:
-//! exact, as published, and by orders of the amplitude.
+//! Forms of the energy transfer W, the power that the antiphase mode of the paper's tree receives:
+//! exact, as published, and by orders in the amplitude.
 
 use branched_pendulum::prelude::*;
 

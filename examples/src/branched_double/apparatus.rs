@@ -1,4 +1,4 @@
-//! Measurements on the apparatus at one instant.
+//! Quantities measured on the apparatus at one instant.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::fmt;
@@ -9,9 +9,8 @@ use clap::Args;
 use super::scenes::{BranchedDouble, DampedBranchedDouble, DampedBranchedDoubleParameters};
 use branched_pendulum_frame::command_line::{number, plain};
 
-/// Viscous friction in the joints, N m s each: the torque is minus the
-/// coefficient times the angular velocity relative to the parent link (for the
-/// root, to the ground).
+/// Coefficients of viscous friction in the joints, in N m s: the torque is minus the coefficient
+/// times the angular velocity relative to the parent link (for the root, to the ground).
 #[derive(Args, Clone, Copy, Debug, Default, PartialEq)]
 pub struct Friction {
     /// viscous friction in the parent's pivot, N m s from 0 to 1
@@ -39,12 +38,12 @@ pub struct Friction {
 }
 
 impl Friction {
-    /// Returns true if there is none.
+    /// Returns true if both coefficients are zero.
     pub fn is_zero(self) -> bool {
         self.root == 0.0 && self.children == 0.0
     }
 
-    /// As parameters of the scene with friction.
+    /// Returns the parameters of the scene with friction.
     pub fn parameters(self) -> DampedBranchedDoubleParameters<f64> {
         DampedBranchedDoubleParameters {
             friction_root: self.root,
@@ -75,15 +74,16 @@ pub struct Apparatus {
     friction: Friction,
 }
 
-/// Power, in watts, that flows into the antiphase mode and out of the whole
-/// pendulum; integrated over time, the energy in joules.
+/// Power (W) that flows into the antiphase mode and out of the whole pendulum; integrated over
+/// time, energy (J).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Flow {
-    /// W into H_d in the three forms of [`FORMS`], each by part.
+    /// Power W into H_d in the three forms of [`FORMS`], each split into kinetic and potential
+    /// part.
     pub transfer: [Transfer<f64>; 3],
     /// Power of friction on H_d.
     pub antiphase_friction: f64,
-    /// Power of friction on the whole energy; never positive.
+    /// Power of friction on the total energy; never positive.
     pub friction: f64,
 }
 
@@ -97,13 +97,13 @@ pub const PUBLISHED: usize = 0;
 /// Index of the exact form in [`FORMS`].
 pub const EXACT: usize = 2;
 
-/// Index of θ_m among the symmetric coordinates (θ_1, θ_m, θ_d).
+/// Index of θ_m (mean angle of the children) among the symmetric coordinates (θ_1, θ_m, θ_d).
 pub const MEAN: usize = 1;
 
-/// Index of θ_d among the symmetric coordinates.
+/// Index of θ_d (half the difference of the children's angles) among the symmetric coordinates.
 pub const DIFFERENCE: usize = 2;
 
-/// All that is measured at one instant. SI units, angles in radians.
+/// All quantities at one instant, in SI units, with angles in radians.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sample {
     /// Time since the release.
@@ -120,20 +120,20 @@ pub struct Sample {
     pub momenta: [f64; 3],
     /// H_d.
     pub antiphase_energy: f64,
-    /// H, zero where all links hang at rest.
+    /// Total energy H, zero if all links hang at rest.
     pub energy: f64,
-    /// W and the power of friction.
+    /// Energy transfer W and the power of friction.
     pub flow: Flow,
 }
 
-/// An angle between −π/2 and π/2, equal to the given one up to a multiple of π:
-/// θ_d is no better known, because θ_2 and θ_3 are known up to multiples of 2π.
+/// Returns the angle between −π/2 and π/2 that differs from the given one by a multiple of π. θ_d
+/// is defined only up to multiples of π, because θ_2 and θ_3 are defined up to multiples of 2π.
 pub fn folded(angle: f64) -> f64 {
     (angle - PI * (angle / PI).round()).clamp(-FRAC_PI_2, FRAC_PI_2)
 }
 
 impl Apparatus {
-    /// The apparatus with this friction.
+    /// Creates the apparatus with this friction.
     ///
     /// # Errors
     /// A coefficient that is negative or not finite.
@@ -155,12 +155,12 @@ impl Apparatus {
         &self.ideal
     }
 
-    /// The model with friction, where there is any.
+    /// Returns the model with friction; `None` if friction is zero.
     pub fn damped(&self) -> Option<&DampedBranchedDouble> {
         self.damped.as_ref()
     }
 
-    /// Measures at a state (θ_1, θ_m, θ_d and their rates).
+    /// Computes all quantities at a state (θ_1, θ_m, θ_d and their rates).
     pub fn measure(&self, time: f64, coordinates: [f64; 3], rates: [f64; 3]) -> Sample {
         let theta = self.ideal.from_symmetric(&coordinates);
         let omega = self.ideal.from_symmetric(&rates);
@@ -184,7 +184,7 @@ impl Apparatus {
         self.ideal.antiphase_energy(coordinates, &momenta)
     }
 
-    /// W and the power of friction at a state.
+    /// Computes W and the power of friction at a state.
     pub fn flow(&self, coordinates: &[f64; 3], rates: &[f64; 3]) -> Flow {
         let momenta = self.ideal.symmetric_momenta(coordinates, rates);
         let [omega_1, omega_m, omega_d] = *rates;
@@ -208,7 +208,7 @@ impl Apparatus {
 }
 
 impl Flow {
-    /// Adds `weight` times `other`: the step of a quadrature.
+    /// Adds `weight` times `other`, as a step of numerical integration over time.
     pub fn add(&mut self, weight: f64, other: &Self) {
         for (sum, transfer) in self.transfer.iter_mut().zip(other.transfer) {
             sum.kinetic += weight * transfer.kinetic;
@@ -218,7 +218,7 @@ impl Flow {
         self.friction += weight * other.friction;
     }
 
-    /// dH_d/dt according to the form of W with this index.
+    /// Returns dH_d/dt according to the form of W with this index.
     pub fn antiphase_rate(&self, form: usize) -> f64 {
         self.transfer
             .get(form)
@@ -235,7 +235,7 @@ mod tests {
     const COORDINATES: [f64; 3] = [0.7, -0.4, 0.3];
     const RATES: [f64; 3] = [1.2, -2.1, 0.9];
 
-    /// Central difference of `f` along the motion.
+    /// Returns the derivative of `f` along the motion, as a central difference.
     fn rate_along_the_motion(
         accelerations: [f64; 3],
         f: impl Fn(&[f64; 3], &[f64; 3]) -> f64,

@@ -6,7 +6,7 @@ use super::apparatus::Friction;
 use branched_pendulum_frame::Charts;
 use branched_pendulum_frame::command_line::{must_be, number, numbers, plain};
 
-/// The numbers in which trajectories are integrated.
+/// Type of the numbers in which trajectories are integrated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Precision {
     /// some 7 digits
@@ -18,8 +18,8 @@ pub enum Precision {
 }
 
 impl Precision {
-    /// The least tolerance: some ten times the rounding error of a number.
-    /// Below, steps only get shorter, in the end too short to be taken.
+    /// Returns the smallest accepted tolerance: about ten times the rounding error of a number.
+    /// With a smaller one, steps would become too short.
     fn least_tolerance(self) -> f64 {
         match self {
             Self::Single => 1e-6,
@@ -60,8 +60,8 @@ pub struct Arguments {
     // By its full path, clap takes it for one value.
     pub angles_deg: ::std::vec::Vec<f64>,
     /// θ_d(0), rad from -1.5 to 1.5: child 2 starts at +RAD, child 3 at −RAD;
-    /// 0.01 is about what waiting for rest by eye leaves. As long as θ_d is
-    /// small, its growth factor does not depend on it
+    /// 0.01 is about what remains if one waits, by eye, until the links rest.
+    /// The growth factor does not depend on θ_d(0) as long as θ_d is small
     #[arg(
         verbatim_doc_comment,
         long,
@@ -142,23 +142,24 @@ impl branched_pendulum_frame::Arguments for Arguments {
     }
 }
 
-/// Most samples of one run: a million rows are some 600 MB of memory and disk.
+/// Largest number of samples of one run: a million rows take about 600 MB of memory and disk.
 const MOST_SAMPLES: f64 = 1e6;
 
-/// Least samples per second: below, the samples miss the motion of the links.
+/// Smallest number of samples per second; fewer would not resolve the motion of the links.
 const LEAST_RATE: f64 = 10.0;
 
 impl Arguments {
-    /// Number of intervals between samples; the samples are one more.
+    /// Returns the number of intervals between samples, which is one less than the number of
+    /// samples.
     pub fn intervals(&self) -> usize {
         // `check` holds the product between 1 and a million; a rounding error
         // must not cost the last sample.
         (self.duration * self.rate * (1.0 + f64::EPSILON)) as usize
     }
 
-    /// Absolute tolerance of an integration step, in rad and rad/s. It decides
-    /// how small a θ_d keeps its relative accuracy; in single precision it must
-    /// not be lost in the rounding errors of angles and rates of order one.
+    /// Returns the absolute tolerance of an integration step, in rad and rad/s. It determines down
+    /// to which magnitude θ_d keeps its relative accuracy. In single precision it must exceed the
+    /// rounding errors of angles and rates of order one.
     pub fn absolute_tolerance(&self) -> f64 {
         let share = match self.precision {
             Precision::Single => 0.1,
@@ -167,7 +168,7 @@ impl Arguments {
         share * self.tolerance
     }
 
-    /// The conditions that all runs share, for a title.
+    /// Returns the conditions common to all runs, for a title.
     pub fn conditions(&self) -> String {
         format!(
             "θ_d(0) = {} rad, {}",

@@ -14,11 +14,11 @@ use branched_pendulum_frame::Failure;
 use branched_pendulum_frame::Job;
 use branched_pendulum_frame::figures::TimeSpan;
 
-/// Initial angles, in degrees, that the paper compares: just without growth,
-/// and just with it.
+/// Initial angles (degrees) that the paper compares: at the smaller one θ_d just does not grow, at
+/// the larger one it just does.
 const COMPARED: [f64; 2] = [47.6, 47.8];
 
-/// Most panels of the chart of θ_d that can be read.
+/// Largest number of panels at which the chart of θ_d is still legible.
 const MOST_PANELS: usize = 8;
 
 /// Colours of the quantities, the same in all charts.
@@ -26,16 +26,16 @@ const BLUE: Color = Color::rgb(0, 114, 178);
 const ORANGE: Color = Color::rgb(213, 94, 0);
 const GREEN: Color = Color::rgb(0, 158, 115);
 
-/// The charts against time show the onset, unless another time is asked for: so long, s.
+/// Default duration that the charts against time show, in s: the onset of the growth.
 const ONSET: f64 = 10.0;
 
-/// Most angles whose θ_d shares a panel; more have one each.
+/// Largest number of angles of release whose curves of θ_d share one panel. With more, each has its
+/// own panel.
 const MOST_TOGETHER: usize = 2;
 
-/// Draws the charts. Nothing is drawn without a run.
+/// Draws the charts. Without runs, draws nothing.
 ///
-/// # Errors
-/// [`Failure::Chart`], [`Failure::Spectrum`] or [`Failure::File`].
+/// # Errors [`Failure::Chart`], [`Failure::Spectrum`] or [`Failure::File`].
 pub fn write(
     job: &Job,
     arguments: &Arguments,
@@ -63,8 +63,8 @@ pub fn write(
     job.chart("spectrum", &spectrum)
 }
 
-/// The runs nearest to the two angles that the paper compares, by ascending
-/// angle; a single run where there is but one.
+/// Returns the runs nearest to the two angles that the paper compares, by ascending angle; one run
+/// if there is only one.
 fn compared(runs: &[Run]) -> Vec<&Run> {
     let nearest = |angle: f64, without: Option<&Run>| {
         let others = runs
@@ -82,7 +82,8 @@ fn compared(runs: &[Run]) -> Vec<&Run> {
     pair
 }
 
-/// θ_d against time, of two angles in one panel, of each of more in its own.
+/// Returns the chart of θ_d against time: two angles share a panel; if there are more, each has its
+/// own.
 fn antiphase_angle(arguments: &Arguments, shown: TimeSpan, runs: &[Run]) -> Chart {
     let drawn = spread(runs, MOST_PANELS);
     let mut title = format!("θ_d, folded to ±π/2; {}", arguments.conditions());
@@ -117,7 +118,7 @@ fn antiphase_angle(arguments: &Arguments, shown: TimeSpan, runs: &[Run]) -> Char
     })
 }
 
-/// H_d and W for the two angles compared, on the same scales.
+/// Returns the chart of H_d and W for the two angles compared, on the same scales.
 fn energy_and_transfer(arguments: &Arguments, shown: TimeSpan, pair: &[&Run]) -> Chart {
     let title = format!("H_d and its rate of change W; {}", arguments.conditions());
     let energies = |run: &Run| column(run, shown, |s| 1e3 * s.antiphase_energy);
@@ -164,7 +165,8 @@ fn energy_and_transfer(arguments: &Arguments, shown: TimeSpan, pair: &[&Run]) ->
     )
 }
 
-/// W_K and W_P as published and exact, with H_d and θ_m, for the growing case.
+/// Returns the chart of W_K and W_P, as published and exact, with H_d and θ_m, for the run in which
+/// θ_d grows.
 fn transfer_by_part(arguments: &Arguments, shown: TimeSpan, run: &Run) -> Chart {
     let title = format!(
         "W by part for {}; {}",
@@ -212,7 +214,7 @@ fn transfer_by_part(arguments: &Arguments, shown: TimeSpan, run: &Run) -> Chart 
         .panel(alone("θ_m (rad)", means))
 }
 
-/// At most `most` of the runs, evenly spread, the first and the last included.
+/// Returns at most `most` of the runs, evenly spread and including the first and the last.
 fn spread(runs: &[Run], most: usize) -> Vec<&Run> {
     let shown = runs.len().min(most);
     let steps = shown.saturating_sub(1).max(1);
@@ -221,7 +223,8 @@ fn spread(runs: &[Run], most: usize) -> Vec<&Run> {
         .collect()
 }
 
-/// Folded angles, with a gap where they leap from one end to the other.
+/// Folds angles, with a gap (NaN) in the curve where they jump from one end of the range to the
+/// other.
 fn folded_with_gaps(angles: impl Iterator<Item = f64>) -> Vec<f64> {
     let mut previous: Option<f64> = None;
     angles
@@ -233,12 +236,13 @@ fn folded_with_gaps(angles: impl Iterator<Item = f64>) -> Vec<f64> {
         .collect()
 }
 
-/// The axis of the time that is shown.
+/// Returns the time axis for the span that is shown.
 fn time(shown: TimeSpan) -> Axis {
     Axis::linear("time after release (s)").range(shown.from, shown.to)
 }
 
-/// The samples of a time, and the next on both sides: lines reach the edges.
+/// Returns the samples within a time span and one more on each side, so that lines reach the edges
+/// of the panel.
 fn within(run: &Run, shown: TimeSpan) -> &[Sample] {
     let samples = &run.samples;
     let first = samples.partition_point(|sample| sample.time < shown.from);
@@ -255,8 +259,7 @@ fn times(run: &Run, shown: TimeSpan) -> Vec<f64> {
     column(run, shown, |sample| sample.time)
 }
 
-/// Says where the panel of that range cuts curves (mW) off, and how far they go; nothing of
-/// curves that are whole.
+/// Describes how far curves (mW) extend beyond the range of their panel; empty if none is cut off.
 fn cut_off(name: &str, range: Option<(f64, f64)>, curves: &[&[f64]]) -> String {
     let values = || curves.iter().copied().flatten().copied();
     let least = values().fold(f64::INFINITY, f64::min);
@@ -271,7 +274,7 @@ fn cut_off(name: &str, range: Option<(f64, f64)>, curves: &[&[f64]]) -> String {
     }
 }
 
-/// The range of all values with a margin, or none if it has no extent.
+/// Returns the range of all values, with a margin; `None` if it has no extent.
 fn common_range(values: impl Iterator<Item = f64>) -> Option<(f64, f64)> {
     let (low, high) = values
         .filter(|value| value.is_finite())

@@ -1,4 +1,4 @@
-//! One run of the experiment: from the release to the last sample.
+//! One run of the experiment, from the release to the last sample.
 
 use std::ops::ControlFlow;
 
@@ -13,39 +13,39 @@ use super::scenes::{BranchedDouble, DampedBranchedDouble, DampedBranchedDoublePa
 use branched_pendulum_frame::Failure;
 use branched_pendulum_frame::quadrature::GAUSS;
 
-/// The integrator's work, in whatever numbers.
+/// Cost of the integration, independent of the type of numbers.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Work {
     /// Steps accepted.
     pub steps: u64,
     /// Steps rejected.
     pub rejected: u64,
-    /// Evaluations of the equations of motion.
+    /// Number of evaluations of the equations of motion.
     pub evaluations: u64,
 }
 
-/// A run: samples at even times, and what flowed between them.
+/// A run: samples at equal intervals, and the energies transferred between them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Run {
-    /// Initial angle of the parent link, degrees.
+    /// Initial angle of the parent link, in degrees.
     pub angle_deg: f64,
-    /// The samples, the first at the release.
+    /// The samples; the first is taken at the release.
     pub samples: Vec<Sample>,
-    /// Energies in joules that flowed between sample i and sample i + 1:
-    /// integrals of W and of the power of friction over the interval.
+    /// Energies (J) transferred between sample i and sample i + 1: the integrals of W and of the
+    /// power of friction over the interval.
     pub intervals: Vec<Flow>,
     /// The integrator's work.
     pub work: Work,
 }
 
 impl Run {
-    /// Runs the experiment from the initial angle `angle_deg`. `progress` is
-    /// called after every step with the part of the duration that is done.
+    /// Runs the experiment from the initial angle `angle_deg`. `progress` is called after every
+    /// step with the completed fraction of the duration.
     ///
-    /// The trajectory is integrated in symmetric coordinates: there θ_d is a
-    /// variable of its own, which keeps its relative accuracy however small it
-    /// is, while the difference of two nearly equal angles would lose it. All
-    /// that is measured on the trajectory is computed in double precision.
+    /// The trajectory is integrated in symmetric coordinates: in these, θ_d is a separate variable
+    /// and keeps its relative accuracy however small it is; computed as the difference of two
+    /// nearly equal angles, it would lose it. All quantities derived from the trajectory are
+    /// computed in double precision.
     ///
     /// # Errors
     /// [`Failure::Parameter`], or [`Failure::Integration`] if the integrator
@@ -62,7 +62,7 @@ impl Run {
         }
     }
 
-    /// The angle of release, as panels and lines are named.
+    /// Returns the angle of release as text, for the names of panels and lines.
     pub fn release(&self) -> String {
         format!("θ_1(0) = {:?}°", self.angle_deg)
     }
@@ -137,13 +137,13 @@ fn integrate<T: Real>(
     })
 }
 
-/// Takes samples and integrates the flow between them, step by step.
+/// Takes samples and integrates the energy transfer between them, step by step.
 struct Recorder<'a> {
     apparatus: &'a Apparatus,
     arguments: &'a Arguments,
     samples: Vec<Sample>,
     intervals: Vec<Flow>,
-    /// Energies that have flowed since the last sample.
+    /// Energies transferred since the last sample.
     since: Flow,
 }
 
@@ -175,7 +175,7 @@ impl<'a> Recorder<'a> {
         self.accumulate(step, from, step.end_time())
     }
 
-    /// Adds what flows from `from` to `to`, both within the step.
+    /// Adds the energy transferred from time `from` to time `to`, both within the step.
     fn accumulate<T: Real>(
         &mut self,
         step: &mut DenseStep<'_, T>,
@@ -204,7 +204,7 @@ impl<'a> Recorder<'a> {
     }
 }
 
-/// Coordinates and rates of a state of six components.
+/// Splits a state of six components into three coordinates and their three rates.
 fn halves<T: Real>(values: &[T]) -> ([f64; 3], [f64; 3]) {
     let at = |index: usize| values.get(index).map_or(f64::NAN, |value| value.to_f64());
     (

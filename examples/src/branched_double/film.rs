@@ -1,4 +1,4 @@
-//! All releases as a film, side by side.
+//! Film of all releases, one next to the other.
 
 use branched_pendulum_charts::{Film, FilmLink};
 
@@ -7,14 +7,14 @@ use super::{Arguments, Run};
 use branched_pendulum_frame::Failure;
 use branched_pendulum_frame::Job;
 
-/// Pictures in a second, between which browsers interpolate.
+/// Pictures per second of the film; browsers interpolate between them.
 const RATE: f64 = 20.0;
 
-/// Where the children hang on the parent, m.
+/// Distance from the root at which the children hang, in m.
 const JOINT: f64 = 0.27;
 
-/// Writes the film. Links are drawn to where their mass would swing alike as a point: (I + m
-/// d²)/(m d) from the pivot for the children, the joint for the parent.
+/// Writes the film. A child is drawn as long as the simple pendulum with the same period, (I + m
+/// d²)/(m d); the parent is drawn as long as the distance from its pivot to the joint.
 ///
 /// # Errors
 /// [`Failure::Chart`] or [`Failure::File`].

@@ -1,5 +1,4 @@
-//! Findings of a run: growth, first peak, where the energy came from, and how
-//! far each form of W is from the truth.
+//! Findings of a run: growth, first peak, source of the energy, and error of each form of W.
 
 use branched_pendulum::Transfer;
 use branched_pendulum::analysis::{Modes, ModesError};
@@ -8,31 +7,30 @@ use super::apparatus::{DIFFERENCE, EXACT, FORMS, Flow, MEAN, PUBLISHED, Sample, 
 use super::experiment::Run;
 use super::scenes::BranchedDouble;
 
-/// A maximum counts as the first peak of H_d if H_d does not exceed it within
-/// this time before and after, s. H_d grows in pulses, about two seconds apart;
-/// a pulse that the next one dwarfs is on the way to the peak.
+/// Duration (s) before and after a maximum of H_d within which H_d must not exceed it for it to
+/// count as the first peak. H_d grows in pulses, about two seconds apart; a pulse followed by a
+/// much larger one is not yet the peak.
 pub const PEAK_REACH: f64 = 2.0;
 
-/// The forms of W are compared until |θ_d| first exceeds this, rad: all but the
-/// exact one are made for small θ_d, and mean nothing for children that tumble.
+/// Angle (rad) that |θ_d| must not yet have exceeded while the forms of W are compared: all forms
+/// except the exact one are expansions for small θ_d, and mean nothing when the children turn over.
 pub const SMALL_ANGLE: f64 = 0.5;
 
-/// Findings of one run. `None` stands where a number has no meaning, for example
-/// the growth of a disturbance of zero.
+/// Findings of one run. A field is `None` if its number has no meaning, for example the growth of a
+/// disturbance of zero.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Findings {
-    /// Largest |θ_d| of the run, folded to π/2 at most, over |θ_d(0)|.
+    /// Largest |θ_d| of the run (folded to π/2 at most), divided by |θ_d(0)|.
     pub growth: Option<f64>,
     /// The first peak of H_d.
     pub peak: Option<Peak>,
-    /// For each form of W: the root mean square of its difference from dH_d/dt,
-    /// relative to the root mean square of dH_d/dt. Both are means over one
-    /// sampling interval: ∫W dt over it on one side, the change of H_d on the
-    /// other. With friction, its power on H_d is added to W. Until |θ_d| first
-    /// exceeds [`SMALL_ANGLE`].
+    /// For each form of W: the root mean square of its difference from dH_d/dt, divided by the root
+    /// mean square of dH_d/dt. Both are means over a sampling interval: the integral of W over it,
+    /// and the change of H_d. With friction, its power on H_d is added to W. Only samples before
+    /// |θ_d| first exceeds [`SMALL_ANGLE`] are used.
     pub deviations: [Option<f64>; FORMS.len()],
-    /// Largest difference between the energy and what friction has left of the
-    /// initial energy, relative to the initial energy.
+    /// Largest difference between the energy and the initial energy less the losses by friction,
+    /// divided by the initial energy.
     pub energy_error: Option<f64>,
 }
 
@@ -47,15 +45,15 @@ pub struct Peak {
     pub energy: f64,
     /// Largest |θ_m| until then, rad.
     pub largest_mean: f64,
-    /// Energy that each form of W says was transferred until then, J, by part.
+    /// Energy (J) transferred up to the peak according to each form of W, split into kinetic and
+    /// potential part.
     pub transferred: [Transfer<f64>; FORMS.len()],
-    /// Energy of the antiphase mode that friction has taken until then, J: not
-    /// positive.
+    /// Energy (J) that friction has added to the antiphase mode up to the peak; zero or negative.
     pub friction: f64,
 }
 
 impl Peak {
-    /// The shares of W_K and W_P in the energy that a form of W transferred.
+    /// Returns the shares of W_K and W_P in the energy transferred according to a form of W.
     pub fn shares(&self, form: usize) -> Option<(f64, f64)> {
         let transfer = self.transferred.get(form)?;
         let total = transfer.total();
@@ -63,12 +61,12 @@ impl Peak {
         (shares.0.is_finite() && shares.1.is_finite()).then_some(shares)
     }
 
-    /// The shares in the form of the paper.
+    /// Returns the shares of W_K and W_P according to the form published in the paper.
     pub fn published_shares(&self) -> Option<(f64, f64)> {
         self.shares(PUBLISHED)
     }
 
-    /// The shares in the exact form.
+    /// Returns the shares of W_K and W_P according to the exact form.
     pub fn exact_shares(&self) -> Option<(f64, f64)> {
         self.shares(EXACT)
     }
@@ -113,8 +111,8 @@ fn peak(run: &Run) -> Option<Peak> {
     })
 }
 
-/// Index of the first maximum of H_d that is not exceeded within [`PEAK_REACH`]
-/// before and after it, as far as the samples go.
+/// Returns the index of the first maximum of H_d that is not exceeded within [`PEAK_REACH`] before
+/// and after it, as far as there are samples.
 fn first_peak(samples: &[Sample]) -> Option<usize> {
     let is_peak = |index: usize| {
         let (before, rest) = samples.split_at_checked(index)?;
@@ -167,9 +165,9 @@ fn ratio(part: f64, whole: f64) -> Option<f64> {
 /// The three eigenfrequencies, Hz.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Frequencies {
-    /// f_+: the slower mode in phase.
+    /// f_+: frequency of the slower in-phase mode.
     pub plus: f64,
-    /// f_−: the faster mode in phase.
+    /// f_−: frequency of the faster in-phase mode.
     pub minus: f64,
     /// f_d: the antiphase mode.
     pub antiphase: f64,
@@ -183,7 +181,7 @@ impl Frequencies {
         antiphase: 1.26,
     };
 
-    /// Frequencies of the linear modes about rest.
+    /// Computes the frequencies of the small oscillations about the rest position.
     ///
     /// # Errors
     /// As [`Modes::new`].
@@ -222,7 +220,7 @@ mod tests {
     use super::{Findings, first_peak};
     use crate::branched_double::{Apparatus, Friction, Run, Sample, Work};
 
-    /// Samples every 0.1 s with this H_d.
+    /// Creates samples every 0.1 s with these values of H_d.
     fn samples(energies: &[f64]) -> Vec<Sample> {
         let apparatus = Apparatus::new(Friction::default()).unwrap();
         let rest = apparatus.measure(0.0, [0.0; 3], [0.0; 3]);

@@ -1,5 +1,5 @@
-//! Growth of θ_d against the angle of release: at which angles it was looked at,
-//! and what was found there. Nothing is said about angles between them.
+//! Growth of θ_d against the angle of release: the angles that were computed and what was found at
+//! each. Makes no claim about the angles between them.
 
 use branched_pendulum_charts::{Axis, Chart, Color, Panel, Series, Symbol};
 use branched_pendulum_data::{Cell, Column};
@@ -12,10 +12,10 @@ use super::findings::Findings;
 use branched_pendulum_frame::Failure;
 use branched_pendulum_frame::Job;
 
-/// Fewest angles that make a scan: with less there is no band to tell.
+/// Smallest number of angles that make a scan; fewer contain no band to report.
 const SCAN: usize = 3;
 
-/// Growth from which on it is called so.
+/// Growth factor from which on θ_d counts as grown.
 const GROWN: f64 = 10.0;
 
 /// Fate of the disturbance in one run.
@@ -25,7 +25,7 @@ pub enum Fate {
     Small,
     /// It grows tenfold or more.
     Grown,
-    /// The children turn over: |θ_d| passes π/2, and growth means no more.
+    /// The children turn over: |θ_d| passes π/2, and the growth factor loses its meaning.
     TurnedOver,
 }
 
@@ -55,7 +55,7 @@ impl Fate {
     }
 }
 
-/// Neighbours among the angles looked at that share a fate.
+/// Consecutive computed angles with the same fate.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Band {
     /// The fate.
@@ -68,7 +68,7 @@ pub struct Band {
     pub growth: [f64; 2],
 }
 
-/// Angle, growth and fate of the runs whose growth has a meaning.
+/// Returns angle, growth and fate of each run whose growth is defined.
 fn points(runs: &[Run], findings: &[Findings]) -> Vec<(f64, f64, Fate)> {
     let growths = findings.iter().map(|findings| findings.growth);
     let pairs = runs.iter().zip(growths);
@@ -80,7 +80,7 @@ fn points(runs: &[Run], findings: &[Findings]) -> Vec<(f64, f64, Fate)> {
         .collect()
 }
 
-/// The bands of a scan, by ascending angle.
+/// Returns the bands of a scan, by ascending angle.
 pub fn bands(points: &[(f64, f64, Fate)]) -> Vec<Band> {
     let mut bands: Vec<Band> = Vec::new();
     for &(angle, growth, fate) in points {
@@ -101,7 +101,7 @@ pub fn bands(points: &[(f64, f64, Fate)]) -> Vec<Band> {
     bands
 }
 
-/// The bands as text; empty where there are too few angles.
+/// Returns the bands as text; empty if there are too few angles for a scan.
 pub fn report(runs: &[Run], findings: &[Findings]) -> String {
     let points = points(runs, findings);
     if points.len() < SCAN {
@@ -136,7 +136,7 @@ pub fn report(runs: &[Run], findings: &[Findings]) -> String {
     text
 }
 
-/// Writes table and chart of a scan; nothing where there are too few angles.
+/// Writes the table and the chart of a scan; nothing if there are too few angles.
 ///
 /// # Errors
 /// [`Failure::Csv`], [`Failure::Chart`] or [`Failure::File`].

@@ -1,34 +1,34 @@
-//! The lines of θ_m that a record as long as the paper's tells apart.
+//! Spectral lines of θ_m that can be separated in a record as long as the paper's.
 
 use branched_pendulum_measure::{LineSearch, Lines, SpectrumError};
 
 use super::apparatus::MEAN;
 use super::experiment::Run;
 
-/// The span of the paper's spectrum, s.
+/// Length of the record from which the paper's spectrum was computed, in s.
 pub(super) const SPAN: f64 = 32.0;
 
-/// Lines that are sought, and those of them that are told: the last ones found are disturbed
-/// by those that come after.
+/// Number of lines that are searched for, and number of those that are reported: the last ones
+/// found are distorted by still weaker ones.
 const SOUGHT: usize = 18;
 const TOLD: usize = 12;
 
-/// Highest order of a name, and the distance from its combination's frequency, in cycles over
-/// the record.
+/// Highest order of a combination that names a line, and the largest distance of the line from the
+/// combination's frequency, in cycles per record.
 const ORDER: u32 = 11;
 const TOLERANCE: f64 = 0.01;
 
-/// Names of the two strongest lines, the slower first.
+/// Names of the two strongest lines, in the order of their frequencies.
 const NAMES: [&str; 2] = ["f_+", "f_−"];
 
-/// θ_m of a run, up to [`SPAN`].
+/// Returns θ_m of a run, up to the time [`SPAN`].
 pub(super) fn mean_angle(run: &Run) -> Vec<f64> {
     let samples = run.samples.iter();
     let samples = samples.take_while(|sample| sample.time < SPAN);
     samples.map(|sample| sample.coordinates[MEAN]).collect()
 }
 
-/// The lines of a run that was sampled at a rate.
+/// Finds the spectral lines of a run that was sampled at `rate` (Hz).
 ///
 /// # Errors
 /// [`SpectrumError`].
@@ -40,7 +40,7 @@ pub fn of(run: &Run, rate: f64) -> Result<Lines, SpectrumError> {
     search.find(&mean_angle(run), rate)
 }
 
-/// Names of the lines as combinations of the two strongest ones.
+/// Returns names of the lines as combinations of the two strongest lines.
 fn names(lines: &Lines) -> Vec<String> {
     let [first, second, ..] = lines.lines.as_slice() else {
         return vec![String::new(); lines.lines.len()];

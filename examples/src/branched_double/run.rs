@@ -1,4 +1,4 @@
-//! The program: all angles, their tables, files and charts.
+//! Main program: runs all angles and writes their tables, files and charts.
 
 use serde_json::json;
 
@@ -11,15 +11,16 @@ use super::{
 use branched_pendulum_frame::Failure;
 use branched_pendulum_frame::Job;
 
-/// What a run without friction is not, and which run comes nearest.
+/// Text of the error if a run without friction is requested that was not computed; it names the
+/// nearest run.
 const NEAREST_THE_PAPER: &str = "\
 Without friction the antiphase mode grows from more angles than in the paper's experiment.
 Its figures are met best by `--friction-children 3.5e-5 --disturbance 0.02`.
 
 ";
 
-/// Runs the experiment from every angle. The samples of an angle are written as
-/// soon as they are there.
+/// Runs the experiment from every angle. The samples of an angle are written as soon as its run
+/// ends.
 ///
 /// # Errors
 /// [`Failure`].

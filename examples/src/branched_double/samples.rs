@@ -19,7 +19,7 @@ pub fn write(job: &Job, run: &Run) -> Result<(), Failure> {
     })
 }
 
-/// The columns, in the order of [`row`].
+/// Returns the columns of the file, in the order of [`row`].
 fn columns() -> Vec<Column> {
     let mut columns = vec![Column::new("time", "s")];
     let mut add = |names: &[&str], unit: &str| {

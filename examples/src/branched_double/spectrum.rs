@@ -1,4 +1,4 @@
-//! The spectrum of θ_m, of the gentlest run and of the two compared.
+//! Spectrum of θ_m, for the run with the smallest angle of release and for the two runs compared.
 
 use branched_pendulum_charts::{Axis, Chart, Panel, Series};
 use branched_pendulum_measure::{Spectrum, SpectrumOptions};
@@ -12,7 +12,7 @@ use branched_pendulum_frame::Failure;
 /// The frequencies shown, Hz.
 const SPECTRUM_TOP: f64 = 3.0;
 
-/// Amplitude spectrum of θ_m, with the window of Hann.
+/// Returns the chart of the amplitude spectrum of θ_m, computed with a Hann window.
 ///
 /// # Errors
 /// [`Failure::Spectrum`].

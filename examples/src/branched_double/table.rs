@@ -9,7 +9,7 @@ use super::findings::{Findings, Frequencies, Peak};
 use super::terms::{Sizes, TERMS};
 use branched_pendulum_frame::command_line::plain;
 
-/// The head of a table: three lines of headings for each column.
+/// Three lines of headings for each column of a table.
 type Headings = [[&'static str; 3]];
 
 const MOTION: &Headings = &[
@@ -66,9 +66,8 @@ published form and those that it lacks, over the rms of dH_d/dt until |θ_d|
 exceeds 0.5 rad; P of the potential, K of the kinetic energy
 ";
 
-/// The whole account of the runs: frequencies, and three tables with one row
-/// for each run: what happened, how accurately it is known, and how large the
-/// terms of W are.
+/// Returns the complete report of the runs: the frequencies, and three tables with one row for each
+/// run (findings, accuracy, and size of the terms of W).
 pub fn report(
     arguments: &Arguments,
     apparatus: &Apparatus,
@@ -208,7 +207,8 @@ fn or_dash(text: Option<String>) -> String {
     text.unwrap_or_else(|| "—".to_owned())
 }
 
-/// Three digits, or all before the point.
+/// Formats a number with three significant digits, or with all digits before the decimal point if
+/// these are more.
 pub(super) fn three_digits(value: f64) -> String {
     let before = value.abs().log10().floor();
     if before < -3.0 {

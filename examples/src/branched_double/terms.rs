@@ -1,7 +1,7 @@
-//! The terms of W's leading order, and which of them the published form lacks.
+//! Terms of the leading order of W, and their presence in the published form.
 //!
-//! W = a_pp p_d² + a_pq p_d θ_d + a_qq θ_d² + …; the published form holds the
-//! first term and the potential part of the second.
+//! W = a_pp p_d² + a_pq p_d θ_d + a_qq θ_d² + …; the published form contains the first term and the
+//! potential part of the second.
 
 use super::apparatus::{Apparatus, DIFFERENCE, EXACT, PUBLISHED, Sample};
 use super::experiment::Run;
@@ -10,8 +10,8 @@ use super::findings::SMALL_ANGLE;
 /// Names of the terms, in the order of [`terms`].
 pub const TERMS: [&str; 4] = ["p_d²", "p_dθ_d, P", "p_dθ_d, K", "θ_d²"];
 
-/// The four terms at a sample, W: those of the published form, then those that
-/// it lacks.
+/// Returns the four terms of W (in watts) at a sample: first those of the published form, then
+/// those missing from it.
 pub fn terms(apparatus: &Apparatus, sample: &Sample) -> [f64; 4] {
     let [_, pq, qq] = apparatus
         .ideal()
@@ -26,8 +26,8 @@ pub fn terms(apparatus: &Apparatus, sample: &Sample) -> [f64; 4] {
     ]
 }
 
-/// Sizes of the terms along a run, relative to the rms of dH_d/dt, until |θ_d|
-/// first exceeds [`SMALL_ANGLE`].
+/// Sizes of the terms along a run, relative to the rms of dH_d/dt, until |θ_d| first exceeds
+/// [`SMALL_ANGLE`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sizes {
     /// Root mean squares.
@@ -37,7 +37,7 @@ pub struct Sizes {
 }
 
 impl Sizes {
-    /// Reads a run; none where H_d does not change.
+    /// Computes the sizes from a run; `None` if H_d does not change.
     pub fn of(apparatus: &Apparatus, run: &Run) -> Option<Self> {
         let (mut squares, mut largest, mut whole) = ([0.0_f64; 4], [0.0_f64; 4], 0.0);
         let small = |sample: &Sample| sample.coordinates[DIFFERENCE].abs() <= SMALL_ANGLE;
@@ -65,7 +65,8 @@ mod tests {
     use super::{Sizes, terms};
     use crate::branched_double::{Apparatus, Arguments, Friction, Run};
 
-    /// Against the formulas of the physics page, 5.3 and 5.4, written out.
+    /// Compares the terms with the formulas of sections 5.3 and 5.4 of the physics page, written
+    /// out.
     #[test]
     fn the_terms_are_those_of_the_quadratic_form() {
         let apparatus = Apparatus::new(Friction::default()).unwrap();

@@ -5,7 +5,7 @@ use branched_pendulum_charts::{Axis, Chart, Panel};
 use std::error::Error;
 use std::process::ExitCode;
 
-/// Two equal links hang from one: the apparatus of Toda and Ooshida.
+/// Two equal links that hang from one: the apparatus of Toda and Ooshida.
 #[branched_pendulum(
     gravity = 9.80665,
     parent(mass = 0.12880, com = 0.084, inertia = 1.88e-3, joint = 0.27) [

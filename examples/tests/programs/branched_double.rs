@@ -271,7 +271,7 @@ fn an_output_folder_that_cannot_be_made_is_explained() {
     let output = program(&["--output", folder.to_str().unwrap()]);
     assert_eq!(output.status.code(), Some(1));
     let stderr = text(&output.stderr);
-    assert!(stderr.starts_with("branched-double: cannot make the output folder"));
+    assert!(stderr.starts_with("branched-double: cannot create the output folder"));
     assert!(stderr.contains("not-a-folder: "), "{stderr}");
     fs::remove_file(&folder).unwrap();
 }

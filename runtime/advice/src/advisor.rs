@@ -1,4 +1,4 @@
-//! The one who measures and chooses.
+//! The advisor: measures candidates and chooses the cheapest one that is right.
 
 use std::fmt;
 use std::hint::black_box;
@@ -17,7 +17,7 @@ use crate::wanted::Wanted;
 use branched_pendulum::scalar::Double;
 use branched_pendulum::system::{CastOde, State};
 
-/// A scene, what must be right of it, and for how long.
+/// A scene with its starts, its end, the outputs that must be right, and an optional time limit.
 pub struct Advisor<'a> {
     exact: &'a dyn Exact,
     starts: Vec<State<f64>>,
@@ -27,22 +27,23 @@ pub struct Advisor<'a> {
     limit: Option<TimeLimit>,
 }
 
-/// Samples of a motion where the caller has not said how many.
+/// Default number of samples of a motion.
 const SAMPLES: u32 = 100;
 
-/// The part of the best time so far that a candidate may take while it is looked for.
+/// Multiple of the best time so far that a candidate may take during the search.
 const ALLOWED: f64 = 1.5;
 
-/// Rounds of turns in which the best are timed, at most, and their time.
+/// Largest number of repeated rounds in which the best runs are timed alternately, and the time
+/// that may be spent on them.
 const ROUNDS: usize = 60;
 const SECONDS: f64 = 0.5;
 
-/// Time for repeated runs of one setting of a survey, s.
+/// Total duration of repeated runs of one setting in a survey, in s.
 const SHORT: f64 = 0.02;
 
 impl<'a> Advisor<'a> {
-    /// One for a scene with these exact equations: a model in its coordinates, of which
-    /// nothing is left out.
+    /// Creates an advisor for a scene. `exact` are its exact equations of motion: the complete
+    /// model in its own coordinates.
     pub fn new<O: CastOde<f64, Double>>(exact: &'a O) -> Self {
         Self {
             exact,
@@ -54,21 +55,21 @@ impl<'a> Advisor<'a> {
         }
     }
 
-    /// Adds a start. Candidates take all of them; costs are for one.
+    /// Adds a start. Candidates integrate from all starts; costs are given for one start.
     #[must_use]
     pub fn start(mut self, start: State<f64>) -> Self {
         self.starts.push(start);
         self
     }
 
-    /// Follows the scene to the time `end`, with a hundred samples at equal distances.
+    /// Sets the end time (s), with a hundred samples at equal intervals.
     #[must_use]
     pub fn until(self, end: f64) -> Self {
         let sample = |index| end * f64::from(index) / f64::from(SAMPLES);
         self.at((1..=SAMPLES).map(sample).collect())
     }
 
-    /// Asks for samples at these times.
+    /// Sets the sample times (s).
     #[must_use]
     pub fn at(mut self, times: Vec<f64>) -> Self {
         self.times = times;
@@ -82,15 +83,15 @@ impl<'a> Advisor<'a> {
         self
     }
 
-    /// Names a quantity that the motion keeps. Where the values of an output cannot be
-    /// followed to the end, its drift is judged in their place.
+    /// Adds a conserved quantity. If the values of an output cannot be followed to the end, the
+    /// drift of this quantity is judged instead.
     #[must_use]
     pub fn conserved(mut self, conserved: Wanted<'a>) -> Self {
         self.conserved = Some(conserved);
         self
     }
 
-    /// Takes nothing that needs more time than this.
+    /// Excludes candidates that take longer than this limit.
     #[must_use]
     pub fn within(mut self, limit: TimeLimit) -> Self {
         self.limit = Some(limit);
@@ -99,9 +100,9 @@ impl<'a> Advisor<'a> {
 
     /// Measures the candidates and chooses among them.
     ///
-    /// Candidates that were added first are measured first; what costs half as much again as
-    /// the best so far is left there. It takes as long as some ten runs of each candidate,
-    /// and the reference.
+    /// Candidates are measured in the order in which they were added; a candidate that costs 1.5
+    /// times as much as the best so far is abandoned. Takes about ten runs of each candidate, and
+    /// the reference.
     ///
     /// # Errors
     ///
@@ -109,7 +110,7 @@ impl<'a> Advisor<'a> {
     pub fn advise(&self, candidates: &Candidates<'_>) -> Result<Advice, AdviceError> {
         let mut comparison = self.comparison()?;
         let advice = self.advise_by(&comparison, candidates);
-        // Near the end of the digits of `f64` it is tried first whether they last.
+        // Near the last digits of `f64`, first check whether they suffice.
         if advice.runs.iter().any(Measured::is_right) || !comparison.truth.trust_less() {
             return Ok(advice);
         }
@@ -129,7 +130,7 @@ impl<'a> Advisor<'a> {
             let begin = runs.len();
             bracket(range, tolerance, ALLOWED * best, |logarithm| {
                 let setting = range.setting(logarithm);
-                // Digits that are not written may make two settings one.
+                // Two settings may be equal after rounding to the digits that are written.
                 let known = runs[begin..].iter().find(|run| run.setting == setting);
                 if let Some(known) = known {
                     return (known.ratio(), known.seconds);
@@ -148,9 +149,9 @@ impl<'a> Advisor<'a> {
         Advice::new(comparison, candidates, runs, choice, self.limit)
     }
 
-    /// Measures every candidate at all settings of its range that are `spacing` decades
-    /// apart, for a chart. What takes more than `most` seconds for one start is left
-    /// there, as is what has got no better for three fine settings.
+    /// Measures every candidate at settings of its range that are `spacing` decades apart, for a
+    /// chart. A candidate is abandoned if a run takes more than `most` seconds for one start, or if
+    /// three fine settings bring no improvement.
     ///
     /// # Errors
     ///
@@ -186,7 +187,7 @@ impl<'a> Advisor<'a> {
                 }
                 let slow = run.seconds > most;
                 runs.push(run);
-                // Coarse settings may all be wrong by as much.
+                // Coarse settings may all have the same large error.
                 let is_coarse = 2 * number < count;
                 useless = match ratio < least || is_coarse {
                     true => 0,
@@ -259,13 +260,13 @@ impl<'a> Advisor<'a> {
         })
     }
 
-    /// Where the search for tolerances begins: at the smallest of those asked for.
+    /// Returns the tolerance with which the search begins: the smallest requested one.
     fn tolerance(&self) -> f64 {
         let tolerances = self.wanted.iter().map(|wanted| wanted.tolerance);
         tolerances.fold(f64::INFINITY, f64::min)
     }
 
-    /// One run, judged, and timed twice.
+    /// Runs a candidate at a setting, judges the result, and times the run twice.
     fn measure(
         &self,
         comparison: &Comparison<'_>,
@@ -304,7 +305,7 @@ impl<'a> Advisor<'a> {
         measured
     }
 
-    /// Runs a candidate once. Returns the time for one start, s.
+    /// Runs a candidate once. Returns the time for one start, in s.
     pub fn time(&self, candidate: &dyn Candidate, setting: f64) -> f64 {
         let clock = Instant::now();
         let result = candidate.run(
@@ -316,13 +317,13 @@ impl<'a> Advisor<'a> {
             },
         );
         let time = clock.elapsed().as_secs_f64();
-        // What fails is not asked for its time.
+        // The time of a failed run is not used.
         let _ = black_box(result);
         time / self.starts.len() as f64
     }
 
-    /// Times those that may be chosen again, in turns: the least of all times counts,
-    /// since what disturbs a run only lengthens it.
+    /// Times the best runs again, alternating between them. The shortest time of each counts, since
+    /// disturbances only lengthen a run.
     fn time_the_best(
         &self,
         candidates: &Candidates<'_>,
@@ -331,7 +332,7 @@ impl<'a> Advisor<'a> {
     ) {
         let right = runs.iter().filter(|run| eligible(run));
         let best = right.map(|run| run.seconds).fold(f64::INFINITY, f64::min);
-        // Of each candidate its cheapest.
+        // The cheapest run of each candidate.
         let mut finalists: Vec<usize> = Vec::new();
         for index in 0..candidates.all.len() {
             let own = (0..runs.len()).filter(|&run| runs[run].candidate == index);

@@ -1,4 +1,4 @@
-//! Models that move states by frames of one length.
+//! Candidates that advance states by frames of constant length.
 
 use std::cell::RefCell;
 use std::error::Error;
@@ -11,8 +11,9 @@ use branched_pendulum::scalar::Real;
 use branched_pendulum::system::State;
 
 impl<'a> Candidates<'a> {
-    /// Adds a model that `step` moves by a frame of the length `frame` (s), in place:
-    /// linear models, game loops. Samples must stand at ends of frames.
+    /// Adds a model that advances by frames of constant length, such as a linear model or a game
+    /// loop. `step` advances the state by one frame of `frame` seconds, in place. Sample times must
+    /// be ends of frames.
     ///
     /// # Examples
     ///
@@ -56,7 +57,7 @@ struct ByFrames<'a, T, F> {
     state: std::marker::PhantomData<T>,
 }
 
-/// The part of a frame that a sample may be away from its end.
+/// Largest distance of a sample from the end of a frame, as a fraction of the frame.
 const AWAY: f64 = 1e-6;
 
 impl<T: Real, F: FnMut(&mut [T])> Candidate for ByFrames<'_, T, F> {

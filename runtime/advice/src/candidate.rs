@@ -1,5 +1,4 @@
-//! Things that go from a state to states at given times, and the number that decides
-//! about their accuracy.
+//! The trait of candidates, with their names and the range of their settings.
 
 use std::error::Error;
 use std::fmt;
@@ -9,11 +8,10 @@ use branched_pendulum::system::State;
 /// Receives states of the scene: index of the start, index of the time, values.
 pub type Visit<'v> = dyn FnMut(usize, usize, &[f64]) + 'v;
 
-/// A way to go from states of a scene to its states at given times: a model with a
-/// method, whatever both are.
+/// A model with a method: computes the states of a scene at given times from its initial states.
 ///
-/// [`Candidates`](super::Candidates) makes them of models and of the methods of this
-/// crate; others are implemented by hand.
+/// [`Candidates`](super::Candidates) creates candidates from models and the methods of this crate;
+/// others are implemented by hand.
 ///
 /// # Examples
 ///
@@ -47,18 +45,18 @@ pub type Visit<'v> = dyn FnMut(usize, usize, &[f64]) + 'v;
 /// }
 /// ```
 pub trait Candidate {
-    /// Returns the parts of the candidate.
+    /// Returns model, method and scalar of the candidate.
     fn name(&self) -> CandidateName;
 
-    /// The numbers that may be chosen for it.
+    /// Returns the range of settings (tolerances or steps) of the candidate.
     fn settings(&self) -> SettingRange;
 
-    /// Follows every start through all times, in whatever order, and hands the states of
-    /// the *scene* to `visit`. Returns the number of steps.
+    /// Integrates from every start through all times, in any order of the starts, and passes the
+    /// states of the *scene* to `visit`. Returns the number of steps.
     ///
     /// # Errors
     ///
-    /// Why it does not reach the last time.
+    /// The reason why the last time is not reached.
     fn run(
         &self,
         setting: f64,
@@ -67,28 +65,29 @@ pub trait Candidate {
         visit: &mut Visit<'_>,
     ) -> Result<u64, Box<dyn Error + Send + Sync>>;
 
-    /// Lines to write for it, in the attribute and in Rust.
+    /// Returns the lines of code that a user writes for this candidate: the entries of the
+    /// attribute and the Rust expressions.
     fn to_write(&self, setting: f64) -> Vec<String> {
         let _ = setting;
         Vec::new()
     }
 }
 
-/// Parts of a candidate, as tables show them.
+/// Name of a candidate, in the parts that tables show in separate columns.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct CandidateName {
-    /// Model: `written out`, `in phase`, …
+    /// Name of the model: `written out`, `in phase`, ….
     pub model: String,
-    /// Method.
+    /// Name of the method.
     pub method: String,
-    /// Scalar.
+    /// Name of the scalar type.
     pub scalar: &'static str,
-    /// True if several starts go at once, in the lanes of vector registers.
+    /// True if several starts are computed together, in the lanes of vector registers.
     pub in_lanes: bool,
 }
 
 impl CandidateName {
-    /// A candidate that takes one start after the other.
+    /// Creates the name of a candidate that integrates one start after the other.
     pub fn new(model: impl Into<String>, method: impl Into<String>, scalar: &'static str) -> Self {
         Self {
             model: model.into(),
@@ -112,29 +111,29 @@ impl fmt::Display for CandidateName {
     }
 }
 
-/// The number that decides about accuracy and cost, and where it may lie.
+/// The setting that determines accuracy and cost, with its range.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum SettingRange {
     /// Tolerance of one step.
     Tolerance {
-        /// Largest that makes sense.
+        /// Largest useful tolerance.
         coarsest: f64,
-        /// Smallest that makes sense.
+        /// Smallest useful tolerance.
         finest: f64,
     },
-    /// Length of a step, s.
+    /// Length of a step, in s.
     Step {
-        /// Longest that makes sense.
+        /// Longest useful step.
         coarsest: f64,
-        /// Shortest that makes sense.
+        /// Shortest useful step.
         finest: f64,
     },
-    /// None: the candidate is as it is.
+    /// The candidate has no setting.
     Fixed,
 }
 
 impl SettingRange {
-    /// Decimal logarithms of the coarsest and the finest setting.
+    /// Returns the decimal logarithms of the coarsest and the finest setting.
     pub(crate) fn ends(self) -> (f64, f64) {
         match self {
             Self::Tolerance { coarsest, finest } | Self::Step { coarsest, finest } => {
@@ -144,8 +143,8 @@ impl SettingRange {
         }
     }
 
-    /// Distance of two settings, as that of their logarithms, between which costs hardly
-    /// differ: by some per cent.
+    /// Returns the difference of the logarithms of two settings whose costs differ by a few per
+    /// cent.
     pub(crate) fn resolution(self) -> f64 {
         match self {
             Self::Tolerance { .. } => 0.1,
@@ -153,18 +152,18 @@ impl SettingRange {
         }
     }
 
-    /// Where to begin for a largest error of `tolerance`, and the power of the setting
-    /// that errors are expected to go with.
+    /// Returns the logarithm of the first setting to try for an error of at most `tolerance`, and
+    /// the expected power of the setting in the error.
     pub(crate) fn guess(self, tolerance: f64) -> (f64, f64) {
         let (coarsest, finest) = self.ends();
         match self {
-            // Errors grow along the way by some hundred times the tolerance of a step.
+            // Along a motion, errors grow to some hundred times the tolerance of a step.
             Self::Tolerance { .. } => ((tolerance.log10() - 1.0).clamp(finest, coarsest), 1.0),
             Self::Step { .. } | Self::Fixed => (0.7 * coarsest + 0.3 * finest, 4.0),
         }
     }
 
-    /// The setting with this logarithm, in as many digits as are written.
+    /// Returns the setting with this logarithm, rounded to the digits that are written.
     pub(crate) fn setting(self, logarithm: f64) -> f64 {
         let digits = match self {
             Self::Tolerance { .. } => 1,
@@ -175,7 +174,7 @@ impl SettingRange {
         text.parse().unwrap_or(f64::NAN)
     }
 
-    /// A setting, as one says it.
+    /// Returns the setting as text.
     pub(crate) fn describe(self, setting: f64) -> String {
         match self {
             Self::Tolerance { .. } => format!("tolerance {setting:e}"),

@@ -1,4 +1,4 @@
-//! Candidates made of models and of the methods of this crate.
+//! Candidates built from models and the methods of this crate.
 
 use std::fmt;
 use std::rc::Rc;
@@ -21,43 +21,44 @@ pub struct Candidates<'a> {
 }
 
 impl<'a> Candidates<'a> {
-    /// None yet.
+    /// Creates an empty list.
     #[must_use]
     pub fn new() -> Self {
         Self::default()
     }
 
-    /// Number of candidates.
+    /// Returns the number of candidates.
     #[must_use]
     pub fn len(&self) -> usize {
         self.all.len()
     }
 
-    /// Returns true if there are none.
+    /// Returns true if the list is empty.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.all.is_empty()
     }
 
-    /// A candidate by its index: the order in which they were added.
+    /// Returns a candidate by its index, in the order in which they were added.
     #[must_use]
     pub fn get(&self, index: usize) -> Option<&(dyn Candidate + 'a)> {
         self.all.get(index).map(Box::as_ref)
     }
 
-    /// Names of the candidates, in the order in which they were added.
+    /// Returns the names of the candidates, in the order in which they were added.
     pub fn names(&self) -> impl Iterator<Item = CandidateName> + '_ {
         self.all.iter().map(|candidate| candidate.name())
     }
 
-    /// Adds one that was made by hand.
+    /// Adds a candidate implemented by the caller.
     #[must_use]
     pub fn with(mut self, candidate: impl Candidate + 'a) -> Self {
         self.all.push(Box::new(candidate));
         self
     }
 
-    /// Adds a system by every method of `form` but Taylor series, in `f64` and in `f32`.
+    /// Adds a system of first-order equations, as one candidate for each method of `form` except
+    /// Taylor series, in `f64` and in `f32`.
     #[must_use]
     pub fn rates<O>(self, form: &ModelForm<'a>, ode: O) -> Self
     where
@@ -74,7 +75,8 @@ impl<'a> Candidates<'a> {
         })
     }
 
-    /// Adds a system by every method of `form`, in `f64` and in `f32`.
+    /// Adds a system with Taylor coefficients, as one candidate for each method of `form`, in `f64`
+    /// and in `f32`.
     #[must_use]
     pub fn series<O>(self, form: &ModelForm<'a>, ode: O) -> Self
     where
@@ -98,8 +100,8 @@ impl<'a> Candidates<'a> {
         )
     }
 
-    /// Adds a system by the explicit pairs of `form` in the lanes of vector registers, in
-    /// `f64` and in `f32`: for several starts.
+    /// Adds a system that integrates several starts at once in vector registers, as one candidate
+    /// for each explicit pair of `form`, in `f64` and in `f32`.
     #[must_use]
     pub fn lanes<O>(self, form: &ModelForm<'a>, ode: O) -> Self
     where
@@ -116,8 +118,8 @@ impl<'a> Candidates<'a> {
         })
     }
 
-    /// Adds a model in absolute angles by the explicit pairs of `form` and by Taylor
-    /// series in the lanes of vector registers, in `f64`: for several starts.
+    /// Adds a model in absolute angles that integrates several starts at once in vector registers,
+    /// as one candidate for each explicit pair of `form` and for Taylor series, in `f64`.
     #[must_use]
     pub fn lanes_with_series<P>(self, form: &ModelForm<'a>, model: AbsoluteAngles<P>) -> Self
     where
@@ -138,7 +140,7 @@ impl<'a> Candidates<'a> {
         )
     }
 
-    /// Adds a candidate for each method of `form` that is known to `follow`.
+    /// Adds a candidate for each method of `form` that `follow` supports.
     fn integrated<T: Real>(
         mut self,
         form: &ModelForm<'a>,

@@ -1,49 +1,49 @@
-//! Which of the runs that were measured is to be taken.
+//! Choice among the measured runs.
 
 use crate::comparison::Worst;
 
-/// One candidate at one setting, measured.
+/// Measured run of one candidate at one setting.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Measured {
     /// Index of the candidate.
     pub candidate: usize,
     /// Tolerance or step of the candidate.
     pub setting: f64,
-    /// Where it is worst; none where the run failed.
+    /// The largest error and its position; `None` if the run failed.
     pub worst: Option<Worst>,
-    /// Why the run failed, if it did.
+    /// Reason of the failure, if the run failed.
     pub failure: Option<String>,
-    /// Time for one start, in s: the least of all runs.
+    /// Time for one start, in s: the shortest of all runs.
     pub seconds: f64,
-    /// Steps for one start.
+    /// Number of steps for one start.
     pub steps: f64,
 }
 
 impl Measured {
-    /// Largest error over the one allowed; infinite for a run that failed.
+    /// Returns the largest ratio of an error to the allowed error; infinite for a failed run.
     pub fn ratio(&self) -> f64 {
         self.worst
             .as_ref()
             .map_or(f64::INFINITY, |worst| worst.ratio)
     }
 
-    /// Returns true if all that must be right is.
+    /// Returns true if all errors are within their limits.
     pub fn is_right(&self) -> bool {
         self.ratio() <= 1.0
     }
 }
 
-/// Time that a choice may take.
+/// Limit on the time of a candidate.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum TimeLimit {
-    /// For a step of the method, s.
+    /// Time for a step of the method, in s.
     Step(f64),
-    /// From one sample to the next, s: for a frame.
+    /// Time from one sample to the next, in s; for frames.
     Sample(f64),
 }
 
 impl TimeLimit {
-    /// The limit, and the time that a run of so many samples takes by it.
+    /// Returns the limit, and the time of the run that it applies to, for this number of samples.
     pub(crate) fn compare(self, run: &Measured, samples: usize) -> (f64, f64) {
         match self {
             Self::Step(limit) => (limit, run.seconds / run.steps.max(1.0)),
@@ -57,7 +57,7 @@ impl TimeLimit {
     }
 }
 
-/// The runs of which an [`Advice`](super::Advice) speaks, as their indices.
+/// Indices of the runs that an [`Advice`](super::Advice) reports.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct ChosenRuns {
     pub(crate) chosen: Option<usize>,
@@ -66,10 +66,9 @@ pub(crate) struct ChosenRuns {
     pub(crate) closest: Option<usize>,
 }
 
-/// Chooses the cheapest run that is right and within the limit; beside it the cheapest
-/// of another candidate, and of those that cost less the dearest, of another candidate
-/// where there is one. Where there is none to
-/// choose, the closest is the one that is least wrong within the limit.
+/// Chooses the cheapest run that is right and within the limit. Also finds the cheapest run of
+/// another candidate, and the most expensive run among those that cost less, of another candidate
+/// if possible. If no run qualifies, finds the run with the smallest error within the limit.
 pub(crate) fn choose(runs: &[Measured], limit: Option<TimeLimit>, samples: usize) -> ChosenRuns {
     let within = |run: &Measured| limit.is_none_or(|limit| limit.allows(run, samples));
     let least = |value: fn(&Measured) -> f64, among: &dyn Fn(&Measured) -> bool| {
@@ -98,7 +97,8 @@ pub(crate) fn choose(runs: &[Measured], limit: Option<TimeLimit>, samples: usize
     }
 }
 
-/// Indices of the runs that no other beats in both time and error, from the fastest on.
+/// Returns the indices of the runs that no other run beats in both time and error, from the fastest
+/// on.
 pub fn pareto(runs: &[Measured]) -> Vec<usize> {
     let mut order: Vec<usize> = (0..runs.len())
         .filter(|&index| runs[index].ratio().is_finite())
@@ -153,7 +153,7 @@ mod tests {
         let expected = ChosenRuns {
             chosen: Some(2),
             runner_up: Some(4),
-            // Not 3, which is dearer but of the chosen candidate.
+            // Not 3, which is more expensive but belongs to the chosen candidate.
             next_cheaper: Some(1),
             closest: None,
         };

@@ -1,62 +1,61 @@
-//! How wrong a run is: by its values as far as they can be known, beyond by what is
-//! kept or by statistics.
+//! Errors of a run: first of its values, as long as they are predictable, afterwards of a conserved
+//! quantity or of statistics.
 
 use crate::paths::{OutputValues, Paths};
 use crate::truth::Truth;
 use crate::wanted::Wanted;
 use branched_pendulum::analysis::statistics::Estimate;
 
-/// Measure by which an output is judged.
+/// Criterion by which an output is judged.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[non_exhaustive]
 pub enum Criterion {
-    /// Values of the output, time by time.
+    /// Values of the output at each time.
     Values,
-    /// The drift of a quantity that the motion keeps.
+    /// Drift of a conserved quantity.
     Conserved,
     /// Mean and mean square of the output.
     Statistics,
 }
 
-/// Where a run is worst.
+/// The largest error of a run, relative to its limit.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Worst {
-    /// Index of the output, or of the conserved quantity behind all outputs.
+    /// Index of the output; the conserved quantity counts as the one after the last output.
     pub output: usize,
-    /// By what.
+    /// Criterion by which the error was found.
     pub criterion: Criterion,
-    /// When, in s: of statistics, from when on.
+    /// Time of the error, in s; for statistics, the time at which averaging begins.
     pub time: f64,
     /// Error, in the unit of the output.
     pub error: f64,
-    /// Error over the one allowed: at most 1 where the run is good enough.
+    /// Ratio of the error to the allowed error; at most 1 for a run that is right.
     pub ratio: f64,
 }
 
-/// Everything that runs are compared with.
+/// Reference data with which runs are compared.
 pub(crate) struct Comparison<'a> {
     pub(crate) wanted: &'a [Wanted<'a>],
     pub(crate) conserved: Option<&'a Wanted<'a>>,
     pub(crate) times: &'a [f64],
     pub(crate) truth: Truth,
-    /// The conserved quantity at every start.
+    /// Value of the conserved quantity at each start.
     pub(crate) kept: Vec<f64>,
 }
 
-/// Standard errors by which two means of one motion may differ.
+/// Number of standard errors by which two means of the same motion may differ.
 const SIGMAS: f64 = 3.0;
 
-/// Parts of a record, by whose spread the standard error of its mean is told.
+/// Number of parts of a record whose spread gives the standard error of its mean.
 const PARTS: usize = 10;
 
 impl Comparison<'_> {
-    /// Returns true if an output cannot be followed to the end.
+    /// Returns true if the values of an output become unpredictable before the end.
     pub(crate) fn is_short(&self, output: usize) -> bool {
         self.truth.trusted[output] < self.times.len()
     }
 
-    /// Measure by which an output is judged beyond the time to which it can be followed; none
-    /// where there is too little of it.
+    /// Returns the criterion for an output after its values have become unpredictable; `None` if
+    /// too little time is left.
     pub(crate) fn beyond(&self, output: usize) -> Option<Criterion> {
         let rest = self.times.len() - self.truth.trusted[output];
         match self.conserved {
@@ -65,7 +64,7 @@ impl Comparison<'_> {
         }
     }
 
-    /// The worst of all errors of a run.
+    /// Returns the largest of all errors of a run, relative to their limits.
     pub(crate) fn worst(&self, paths: &Paths) -> Worst {
         let mut worst = Worst {
             output: 0,
@@ -74,7 +73,7 @@ impl Comparison<'_> {
             error: 0.0,
             ratio: 0.0,
         };
-        // An error that is no number is worse than any.
+        // A NaN error counts as the largest.
         let mut take = |found: Worst| {
             let ratio = match found.ratio.is_nan() {
                 true => f64::INFINITY,
@@ -121,8 +120,8 @@ impl Comparison<'_> {
         worst
     }
 
-    /// Mean and mean square beyond the time `trusted`, against those of the reference: a
-    /// motion, too, if not this one.
+    /// Compares mean and mean square after the time index `trusted` with those of the reference.
+    /// From then on a correct run may be a different motion, but with the same statistics.
     fn by_statistics(
         &self,
         output: usize,

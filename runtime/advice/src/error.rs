@@ -1,21 +1,21 @@
-//! Why there is no advice.
+//! Errors of the advisor.
 
 use std::error::Error as StdError;
 
 use thiserror::Error;
 
-/// Why there is no advice.
+/// Reason why no advice can be given.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum AdviceError {
-    /// The request makes no sense.
+    /// An argument is invalid.
     #[error("advice needs {0}")]
     Request(&'static str),
-    /// There is no reference: the equations were not integrated to the end.
-    #[error("there is no reference to measure errors against")]
+    /// The reference could not be computed: the equations could not be integrated to the end.
+    #[error("the reference motion, against which errors are measured, could not be computed")]
     Reference(#[source] Box<dyn StdError + Send + Sync>),
-    /// The tree has not what is asked of it.
+    /// The tree does not support the request.
     #[cfg(feature = "trees")]
-    #[error("the tree has not what is asked of it")]
+    #[error("the tree does not support the requested comparison of methods")]
     Tree(#[from] branched_pendulum_trees::TreeError),
 }

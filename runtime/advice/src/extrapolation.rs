@@ -1,9 +1,9 @@
-//! Extrapolation of the modified midpoint rule, for references: its coefficients are
-//! ratios of whole numbers, so that it is as good as the numbers that it computes with,
-//! and any system of rates will do.
+//! Extrapolation of the modified midpoint rule, for references. Its coefficients are ratios of
+//! integers, so that its accuracy is limited only by the type of numbers. It integrates any system
+//! of first-order equations.
 //!
-//! Source: E. Hairer, S. P. Nørsett, G. Wanner, *Solving Ordinary Differential Equations
-//! I*, section II.9 (Gragg, Bulirsch, Stoer).
+//! Source: E. Hairer, S. P. Nørsett, G. Wanner, *Solving Ordinary Differential Equations I*,
+//! section II.9 (Gragg, Bulirsch, Stoer).
 
 use std::error::Error;
 use std::fmt;
@@ -12,21 +12,21 @@ use branched_pendulum::interruption;
 use branched_pendulum::scalar::Real;
 use branched_pendulum::system::{Ode, Workspace};
 
-/// Rows of the table: order 24 at most.
+/// Largest number of rows of the extrapolation table (order 24).
 const ROWS: usize = 12;
 
-/// The row at which the length of steps aims.
+/// Row of the table at which steps should converge; the step length is chosen for it.
 const AIM: usize = 9;
 
-/// Row `row` divides a step into so many.
+/// Returns the number of parts into which row `row` of the table divides a step.
 const fn parts(row: usize) -> u32 {
     2 * (row as u32 + 1)
 }
 
-/// A step that does not reach its tolerance however short it is.
+/// Error: a step does not reach its tolerance at any length.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Unreachable {
-    /// Start of the step, s.
+    /// Start of the step, in s.
     time: f64,
 }
 
@@ -38,8 +38,8 @@ impl fmt::Display for Unreachable {
 
 impl Error for Unreachable {}
 
-/// Follows `state` from `time` through all `times`, and calls `visit` at each. The error
-/// of a step stays below `tolerance`, relative to each component down to a thousandth.
+/// Integrates `state` from `time` through all `times`, and calls `visit` at each. The error of a
+/// step stays below `tolerance`, relative to each component down to a thousandth.
 pub(crate) fn extrapolate<T: Real, O: Ode<T> + ?Sized>(
     ode: &O,
     mut time: f64,
@@ -51,7 +51,7 @@ pub(crate) fn extrapolate<T: Real, O: Ode<T> + ?Sized>(
     let mut table = ExtrapolatedStep::new(ode, state.len());
     let mut longest = f64::INFINITY;
     for (number, &goal) in times.iter().enumerate() {
-        // Times of steps are rounded, the state at the goal is that of the goal.
+        // Times of steps are rounded; the last step ends exactly at the goal.
         while time != goal {
             let step = (goal - time).abs().min(longest).copysign(goal - time);
             let end = if step.abs() < (goal - time).abs() {
@@ -76,11 +76,11 @@ pub(crate) fn extrapolate<T: Real, O: Ode<T> + ?Sized>(
     Ok(())
 }
 
-/// One step, extrapolated.
+/// Workspace of one extrapolated step.
 struct ExtrapolatedStep<'a, T, O: ?Sized> {
     ode: &'a O,
     workspace: Workspace<T>,
-    /// The last row of the table, the best last.
+    /// Last row of the extrapolation table; its last entry is the best value.
     columns: Vec<Vec<T>>,
     start_rates: Vec<T>,
     rates: Vec<T>,
@@ -102,13 +102,13 @@ impl<'a, T: Real, O: Ode<T> + ?Sized> ExtrapolatedStep<'a, T, O> {
         }
     }
 
-    /// The last extrapolated value.
+    /// Returns the best extrapolated value.
     fn best(&self) -> &[T] {
         &self.now
     }
 
-    /// Makes a step. Returns true where its error is below the tolerance, and the factor
-    /// by which the next one may be longer.
+    /// Makes a step. Returns whether its error is below the tolerance, and the ratio of the next
+    /// step length to this one.
     fn step(&mut self, time: f64, end: f64, state: &[T], tolerance: f64) -> (bool, f64) {
         let from = T::from_f64(time);
         let length = T::from_f64(end) - from;
@@ -118,7 +118,7 @@ impl<'a, T: Real, O: Ode<T> + ?Sized> ExtrapolatedStep<'a, T, O> {
         for row in 0..ROWS {
             interruption::look();
             self.midpoint(from, length, state, parts(row));
-            // Neville's scheme in h², over the row before.
+            // Neville's scheme in h², applied to the row before.
             error = 0.0;
             for (i, value) in state.iter().enumerate() {
                 let mut entry = self.now[i];
@@ -130,7 +130,7 @@ impl<'a, T: Real, O: Ode<T> + ?Sized> ExtrapolatedStep<'a, T, O> {
                     let change = (entry - self.columns[column][i]).to_f64().abs();
                     if column + 1 == row {
                         let size = value.to_f64().abs() + 1e-3;
-                        // A change that is no number is none that may pass.
+                        // A NaN error must not pass.
                         error = match change.is_finite() {
                             true => f64::max(error, change / (tolerance * size)),
                             false => f64::INFINITY,
@@ -150,7 +150,7 @@ impl<'a, T: Real, O: Ode<T> + ?Sized> ExtrapolatedStep<'a, T, O> {
         (false, if factor > 0.1 { factor.min(0.8) } else { 0.1 })
     }
 
-    /// The modified midpoint rule with so many parts, to `now`.
+    /// Computes the modified midpoint rule with `parts` substeps; the result is stored in `now`.
     fn midpoint(&mut self, from: T, length: T, state: &[T], parts: u32) {
         let part = length / T::from_f64(f64::from(parts));
         let twice = part + part;
@@ -177,7 +177,8 @@ mod tests {
     use branched_pendulum::scalar::{Double, Real, Scalar};
     use branched_pendulum::system::OdeFn;
 
-    /// An oscillator in twice the digits, through uneven times, against its sines.
+    /// Integrates an oscillator in double-double numbers at uneven times, and compares it with the
+    /// exact sines.
     #[test]
     fn an_oscillator_keeps_the_digits_of_its_numbers() {
         let ode = OdeFn::new(2, |_: Double, y: &[Double], rates: &mut [Double]| {

@@ -1,5 +1,5 @@
-//! A model as a candidate sees it: its name, its methods, and how its states relate to
-//! those of the scene.
+//! Form of a model as a candidate: its name, its methods, and the map between its states and those
+//! of the scene.
 
 use std::fmt;
 use std::rc::Rc;
@@ -8,16 +8,16 @@ use branched_pendulum::integrate::{GaussOrder, Method};
 use branched_pendulum::scalar::Real;
 use branched_pendulum::system::{DifferencePatterns, State, WholeTree};
 
-/// Takes a state of the scene to one of the model, or back.
+/// Maps a state of the scene to a state of the model, or back.
 type StateMap<'a> = Rc<dyn Fn(&[f64]) -> Vec<f64> + 'a>;
 
-/// A model's name, what is written for it, and how its states relate to those of the
-/// scene.
+/// Name of a model, the text that a user writes for it, and the map between its states and those of
+/// the scene.
 #[derive(Clone)]
 pub struct ModelForm<'a> {
     pub(crate) name: String,
     pub(crate) system: String,
-    /// Entries of the attribute; none of a model that has no attribute.
+    /// Entries of the attribute; `None` for a model without an attribute.
     entries: Option<Vec<String>>,
     pub(crate) methods: Vec<Method>,
     enter: Option<StateMap<'a>>,
@@ -25,8 +25,8 @@ pub struct ModelForm<'a> {
 }
 
 impl<'a> ModelForm<'a> {
-    /// A model whose states are those of the scene, with all methods but those of low
-    /// order that others always beat.
+    /// Creates a model whose states are those of the scene, with all methods except low-order ones
+    /// that others always beat.
     pub fn new(name: impl Into<String>) -> Self {
         Self {
             name: name.into(),
@@ -48,15 +48,14 @@ impl<'a> ModelForm<'a> {
         }
     }
 
-    /// Makes it a model that is read at run time. Such a model has no attribute, and no entries
-    /// are written there.
+    /// Marks the model as read at run time; it then has no attribute.
     #[must_use]
     pub fn read_at_run_time(mut self) -> Self {
         self.entries = None;
         self
     }
 
-    /// Adds an entry of the attribute that this model has and others have not.
+    /// Adds an entry of the attribute that distinguishes this model.
     #[must_use]
     pub fn entry(mut self, entry: impl Into<String>) -> Self {
         if let Some(entries) = &mut self.entries {
@@ -65,21 +64,21 @@ impl<'a> ModelForm<'a> {
         self
     }
 
-    /// Says how the system is written in Rust: `AbsoluteAngles(&model)` by default.
+    /// Sets the Rust expression of the system: `AbsoluteAngles(&model)` by default.
     #[must_use]
     pub fn system(mut self, system: impl Into<String>) -> Self {
         self.system = system.into();
         self
     }
 
-    /// Tries these methods only.
+    /// Restricts the methods to these.
     #[must_use]
     pub fn methods(mut self, methods: &[Method]) -> Self {
         self.methods = methods.to_vec();
         self
     }
 
-    /// Says how a state of the scene becomes one of the model, and how it comes back.
+    /// Sets the maps from states of the scene to states of the model, and back.
     #[must_use]
     pub fn through(
         mut self,
@@ -91,9 +90,9 @@ impl<'a> ModelForm<'a> {
         self
     }
 
-    /// The model is a reduction of the scene: copies in phase, locked joints. A start
-    /// enters as the mean of the links that move alike, and comes back as all of them; what
-    /// they differ by shows as an error.
+    /// Marks the model as a reduction of the scene: identical branches that move in phase, or
+    /// locked joints. A start is mapped to the mean of the links that move identically, and the
+    /// state of the model to all of them; differences between such links appear as errors.
     #[must_use]
     pub fn reduced(self, whole: WholeTree) -> Self {
         let mut links = Vec::new();
@@ -124,9 +123,9 @@ impl<'a> ModelForm<'a> {
         )
     }
 
-    /// The model has small differences that act back, [`SmallOde`](type@branched_pendulum::system::SmallOde):
-    /// a start enters as means and differences of these patterns; what else it has of
-    /// differences shows as an error.
+    /// Marks the model as one in which small differences act back on the in-phase motion
+    /// ([`SmallOde`](type@branched_pendulum::system::SmallOde)). A start is mapped to means and to
+    /// differences of these patterns; other differences appear as errors.
     #[must_use]
     pub fn nearly_in_phase(self, patterns: DifferencePatterns) -> Self {
         let back = patterns.clone();
@@ -136,10 +135,10 @@ impl<'a> ModelForm<'a> {
         )
     }
 
-    /// The links of the model, or of the whole tree behind a reduced one, stand in another
-    /// order than those of the scene: trees in loops by a rule go generation by
-    /// generation, others branch by branch. `places` has the place of each link of the
-    /// scene; [`link_name`](branched_pendulum::Model::link_name) tells which is which.
+    /// Sets the order of the links of the model (or of the whole tree of a reduced model), if it
+    /// differs from that of the scene: trees built in loops by a rule are ordered generation by
+    /// generation, others branch by branch. `places` has, for each link of the scene, its index in
+    /// the model; [`link_name`](branched_pendulum::Model::link_name) identifies links.
     #[must_use]
     pub fn ordered(mut self, places: &[usize]) -> Self {
         let mut back = vec![usize::MAX; places.len()];
@@ -163,7 +162,7 @@ impl<'a> ModelForm<'a> {
     }
 }
 
-/// Angles and rates in the order of `places`.
+/// Returns angles and rates in the order of `places`.
 fn reordered(state: &[f64], places: &[usize]) -> Vec<f64> {
     let links = places.len();
     let at = |index: usize| state.get(index).copied().unwrap_or(f64::NAN);
@@ -173,20 +172,20 @@ fn reordered(state: &[f64], places: &[usize]) -> Vec<f64> {
         .collect()
 }
 
-/// Numbers in another scalar.
+/// Converts numbers to another scalar.
 pub(crate) fn of_scalar<T: Real>(values: &[f64]) -> Vec<T> {
     values.iter().map(|&value| T::from_f64(value)).collect()
 }
 
 impl ModelForm<'_> {
-    /// A start of the scene as one of the model.
+    /// Maps a start of the scene to a start of the model.
     pub(crate) fn entered<T: Real>(&self, start: &State<f64>) -> State<T> {
         let own = self.enter.as_ref().map(|enter| enter(&start.values));
         let values = own.as_deref().unwrap_or(&start.values);
         State::new(T::from_f64(start.time), of_scalar(values))
     }
 
-    /// A state of the model as one of the scene.
+    /// Maps a state of the model to a state of the scene, and passes it to `visit`.
     pub(crate) fn left(&self, values: &[f64], visit: &mut dyn FnMut(&[f64])) {
         match &self.leave {
             Some(leave) => visit(&leave(values)),
@@ -194,7 +193,7 @@ impl ModelForm<'_> {
         }
     }
 
-    /// The attribute, if anything is to be written there.
+    /// Returns the text of the attribute, if the model has one.
     pub(crate) fn attribute(&self) -> Option<String> {
         let entries = self.entries.as_ref()?.join(", ");
         (!entries.is_empty()).then(|| format!("#[branched_pendulum(…, {entries})]"))

@@ -1,5 +1,5 @@
-//! Models by the methods of this crate: one start after the other, or as many at a time as
-//! vector registers have lanes.
+//! Models integrated by the methods of this crate: one start after the other, or several at once in
+//! the lanes of vector registers.
 
 use std::error::Error;
 use std::num::NonZeroUsize;
@@ -14,7 +14,7 @@ use branched_pendulum::integrate::{
 use branched_pendulum::scalar::{Lane, Real};
 use branched_pendulum::system::{LaneOde, State, TaylorOde};
 
-/// Starts of a model, and how they are to be followed.
+/// Starts of a model, with the setting and the sample times of a run.
 pub(crate) struct Following<'r, T> {
     pub(crate) method: Method,
     /// Tolerance or step.
@@ -26,13 +26,13 @@ pub(crate) struct Following<'r, T> {
 /// Receives states of the model: index of the start, index of the time, values.
 pub(crate) type VisitModel<'v, T> = dyn FnMut(usize, usize, &[T]) + 'v;
 
-/// Number of steps, or why the last time is not reached.
+/// Number of steps, or the reason why the last time is not reached.
 pub(crate) type StepCount = Result<u64, Box<dyn Error + Send + Sync>>;
 
-/// Follows starts of a model.
+/// Function that integrates all starts of a model.
 pub(crate) type Follow<'a, T> = dyn Fn(&Following<'_, T>, &mut VisitModel<'_, T>) -> StepCount + 'a;
 
-/// A model by one method.
+/// A model with one method.
 pub(crate) struct Integrated<'a, T> {
     pub(crate) form: ModelForm<'a>,
     pub(crate) scalar: &'static str,
@@ -41,7 +41,7 @@ pub(crate) struct Integrated<'a, T> {
     pub(crate) follow: Rc<Follow<'a, T>>,
 }
 
-/// Follows one start after the other.
+/// Integrates one start after the other.
 pub(crate) fn one_by_one<T: Real, O: TaylorOde<T>>(
     system: &O,
     following: &Following<'_, T>,
@@ -60,7 +60,8 @@ pub(crate) fn one_by_one<T: Real, O: TaylorOde<T>>(
     Ok(steps)
 }
 
-/// Follows starts in lanes, on one thread: what is measured is the cost of a core.
+/// Integrates several starts at once in the lanes of vector registers, on one thread, so that the
+/// cost on one core is measured.
 pub(crate) fn in_lanes<T: Lane, O: LaneOde<T> + Sync>(
     method: &impl LaneMethod<O, T>,
     system: &O,
@@ -79,7 +80,7 @@ pub(crate) fn in_lanes<T: Lane, O: LaneOde<T> + Sync>(
     Ok(steps)
 }
 
-/// Follows starts in lanes by an explicit pair.
+/// Integrates several starts at once by an explicit pair; returns an error for any other method.
 pub(crate) fn in_lanes_by_pair<T: Lane, O: LaneOde<T> + Sync>(
     system: &O,
     following: &Following<'_, T>,
@@ -89,7 +90,10 @@ pub(crate) fn in_lanes_by_pair<T: Lane, O: LaneOde<T> + Sync>(
     match following.method {
         Method::Dopri5 => in_lanes(&Dopri5::new(options), system, following, visit),
         Method::Verner98 => in_lanes(&Verner98::new(options), system, following, visit),
-        _ => in_lanes(&Dop853::new(options), system, following, visit),
+        Method::Dop853 => in_lanes(&Dop853::new(options), system, following, visit),
+        Method::Rk4 | Method::Taylor | Method::Gauss(_) | Method::Animation => {
+            Err(format!("`{}` is not an explicit pair", following.method).into())
+        }
     }
 }
 
@@ -144,10 +148,11 @@ impl<T: Real> Candidate for Integrated<'_, T> {
     }
 }
 
-/// Where the tolerances and steps of a method may lie, in numbers of this type.
+/// Returns the range of tolerances or steps of a method, for this type of number.
 fn settings<T: Real>(method: Method) -> SettingRange {
     if method.is_adaptive() {
-        // Below some ten roundings a step cannot be judged; a series has none to judge.
+        // Below some ten roundings the error estimate of a step is useless; a series has no such
+        // estimate.
         let roundings = if method == Method::Taylor { 0.5 } else { 20.0 };
         SettingRange::Tolerance {
             coarsest: 1e-1,
@@ -161,7 +166,7 @@ fn settings<T: Real>(method: Method) -> SettingRange {
     }
 }
 
-/// The lines for the attribute and for the method.
+/// Returns the lines for the attribute and for the method.
 fn written(form: &ModelForm<'_>, method: Method, scalar: &str, setting: f64) -> Vec<String> {
     let mut form = form.clone();
     if method == Method::Taylor {
@@ -175,7 +180,7 @@ fn written(form: &ModelForm<'_>, method: Method, scalar: &str, setting: f64) -> 
     lines
 }
 
-/// The system in this scalar, as one writes it.
+/// Returns the Rust expression of the system in this scalar type.
 fn system_in(form: &ModelForm<'_>, scalar: &str) -> String {
     match scalar {
         "f64" => form.system.clone(),

@@ -1,5 +1,5 @@
-//! Advice: the cheapest model, method, setting and scalar for what must be right,
-//! measured on the machine that asks.
+//! Advice: the cheapest combination of model, method, setting and scalar type with which the
+//! required outputs are right, measured on the user's machine.
 //!
 //! An [`Advisor`] knows the scene: its exact equations, its starts, how long it is
 //! followed, which outputs must be right and how right ([`Wanted`]). [`Candidates`] are
@@ -9,9 +9,9 @@
 //! to write.
 //!
 //! Errors are those against a reference that is good to a hundredth of the tolerances,
-//! whose own error is told: two methods in `f64` where they agree as well, else
+//! whose error is estimated: two methods in `f64` where they agree as well, else
 //! extrapolation in double-double numbers. Where the motion is chaotic, no digit is left
-//! of what `f64` knew of the start after a while, whatever the method: values are
+//! of what `f64` knew of the start after a while, with every method: values are
 //! compared up to there, and beyond a quantity that is kept, or means. The advice says
 //! which.
 //!

@@ -1,10 +1,10 @@
-//! States of a scene at all times, and values of outputs there.
+//! States of a scene at all times, and the values of outputs.
 
 use crate::wanted::Wanted;
 use branched_pendulum::system::State;
 
-/// Roundings that a start is moved by, to see what becomes of those of `f64`: several, as
-/// many steps make them.
+/// Relative size of the perturbation of a start that shows the growth of rounding errors. It equals
+/// several rounding errors, as they accumulate over many steps.
 pub(crate) const MOVE: f64 = 32.0 * f64::EPSILON;
 
 /// States of the scene at all times, start by start.
@@ -16,7 +16,7 @@ pub(crate) struct Paths {
 }
 
 impl Paths {
-    /// None known yet: NaN.
+    /// Creates the states, all NaN.
     pub(crate) fn new(dimension: usize, starts: usize, times: usize) -> Self {
         Self {
             dimension,
@@ -34,8 +34,7 @@ impl Paths {
         }
     }
 
-    /// Values of an output, for each start and time in their order, and how many there
-    /// are for each.
+    /// Computes the values of an output at all starts and times, in their order.
     pub(crate) fn outputs(&self, wanted: &Wanted<'_>, times: &[f64]) -> OutputValues {
         let mut values = Vec::new();
         let states = self.values.chunks_exact(self.dimension.max(1));
@@ -50,9 +49,9 @@ impl Paths {
         }
     }
 
-    /// Sum of roundings along the way of a start, of either sign: in proportion to
-    /// the largest value of each component. One that is zero all the way has none, and
-    /// those that are always equal have equal ones.
+    /// Returns an estimate of the accumulated rounding errors along the trajectory of a start, with
+    /// random signs and in proportion to the largest value of each component. A component that
+    /// stays zero has none, and components that stay equal have equal ones.
     pub(crate) fn roundings(&self, start: usize, from: &State<f64>) -> Vec<f64> {
         let length = self.dimension * self.times;
         let own = &self.values[start * length..(start + 1) * length];
@@ -63,14 +62,14 @@ impl Paths {
                 (size.max(value.abs()), sum + value)
             });
             let bits = f64::to_bits(sum);
-            // Any digit in the middle: as good as chance.
+            // A bit from the middle of the mantissa serves as a random sign.
             let sign = if (bits >> 20) & 1 == 0 { 1.0 } else { -1.0 };
             sign * MOVE * size
         };
         (0..self.dimension).map(move_of).collect()
     }
 
-    /// Distance of two states, over all their components.
+    /// Returns the distance between two states, over all their components.
     pub(crate) fn distance(&self, other: &Self, start: usize, time: usize) -> f64 {
         let begin = (start * self.times + time) * self.dimension;
         let range = begin..begin + self.dimension;
@@ -88,7 +87,7 @@ pub(crate) struct OutputValues {
 }
 
 impl OutputValues {
-    /// The values at a time of a start.
+    /// Returns the values at a time of a start.
     pub(crate) fn at(&self, start: usize, time: usize) -> &[f64] {
         let begin = (start * self.times + time) * self.width;
         self.values
@@ -96,8 +95,8 @@ impl OutputValues {
             .unwrap_or_default()
     }
 
-    /// Largest difference from `other` at a time, over all starts; infinite where one is
-    /// no number.
+    /// Returns the largest difference from `other` at a time, over all starts; infinite if one is
+    /// NaN.
     pub(crate) fn difference(&self, other: &Self, time: usize) -> f64 {
         let starts = self.values.len() / (self.width * self.times).max(1);
         let mut worst = 0.0_f64;

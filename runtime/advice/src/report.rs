@@ -1,46 +1,49 @@
-//! Answer of an advisor.
+//! Report of the advisor.
 
 use std::fmt;
+
+use branched_pendulum::integrate::Method;
 
 use crate::candidate::{CandidateName, SettingRange};
 use crate::candidates::Candidates;
 use crate::choice::{ChosenRuns, Measured, TimeLimit};
 use crate::comparison::{Comparison, Criterion};
 
-/// How far an output could be followed, and how well it is known so far.
+/// Time until which an output was compared with its reference, and the accuracy of the reference.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Followed {
     /// Name of the output.
     pub name: String,
     /// Unit of the output.
     pub unit: &'static str,
-    /// Largest error that is allowed.
+    /// Largest allowed error.
     pub tolerance: f64,
     /// Largest error of the reference itself.
     pub reference_error: f64,
-    /// Time from which on its values are not known, s: none if there is no such time.
+    /// Time from which on the values are unpredictable, in s; `None` if they are predictable to the
+    /// end.
     pub chaotic_from: Option<f64>,
-    /// Measure by which it is judged from then on.
+    /// Criterion by which the output is judged once its values are unpredictable.
     pub beyond: Option<Criterion>,
 }
 
-/// The choice, with its evidence.
+/// The choice, with all measurements behind it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Advice {
-    /// All runs that were measured.
+    /// All measured runs.
     pub runs: Vec<Measured>,
     /// Names of the candidates, in their order.
     pub names: Vec<CandidateName>,
-    /// The outputs.
+    /// Outputs, with the accuracy of their references.
     pub outputs: Vec<Followed>,
-    /// How the reference was computed.
+    /// Method by which the reference was computed.
     pub reference: String,
-    /// Rate at which small deviations grow, 1/s, where they were looked at: those that
-    /// rounding makes, which leave equal components equal and zeros zero. Of copies in phase
-    /// it is the rate [within](branched_pendulum::analysis::variational::Lyapunov::within) the motions in
-    /// phase; differences between them may grow faster.
+    /// Growth rate of small deviations, in 1/s, if it was computed. The deviations are like
+    /// rounding errors: equal components stay equal, and zeros stay zero. For identical branches in
+    /// phase it is the rate [within](branched_pendulum::analysis::variational::Lyapunov::within)
+    /// the in-phase motions; differences between the branches may grow faster.
     pub growth: Option<f64>,
-    /// Lines to write for the choice.
+    /// Lines that a user writes for the choice.
     pub to_write: Vec<String>,
     ranges: Vec<SettingRange>,
     conserved: Option<(String, &'static str, f64)>,
@@ -107,7 +110,7 @@ impl Advice {
         ("time", "s"),
     ];
 
-    /// Returns all that was measured, in the order in which it was, as rows of a table.
+    /// Returns all measurements in their order, as rows of a table.
     pub fn rows<'a, C: From<&'a str> + From<f64>>(&'a self) -> impl Iterator<Item = [C; 7]> {
         self.runs.iter().filter_map(|run| {
             let name = self.names.get(run.candidate)?;
@@ -124,37 +127,36 @@ impl Advice {
         })
     }
 
-    /// The run to take: the cheapest of those that are right and within the limit.
+    /// Returns the chosen run: the cheapest that is right and within the limit.
     pub fn chosen(&self) -> Option<&Measured> {
         self.run(self.choice.chosen)
     }
 
-    /// The cheapest run of another candidate that is right; without a choice the
-    /// cheapest that is right and too slow.
+    /// Returns the cheapest run of another candidate that is right. Without a choice, returns the
+    /// cheapest run that is right but too slow.
     pub fn runner_up(&self) -> Option<&Measured> {
         self.run(self.choice.runner_up)
     }
 
-    /// Of the runs that cost less than the choice and are wrong the dearest; of another
-    /// candidate where there is one.
+    /// Returns the most expensive run among those that cost less than the choice and are wrong, of
+    /// another candidate if possible.
     pub fn next_cheaper(&self) -> Option<&Measured> {
         self.run(self.choice.next_cheaper)
     }
 
-    /// Without a choice, the run within the limit that is least wrong.
+    /// Returns the run within the limit that has the smallest error, if there is no choice.
     pub fn closest(&self) -> Option<&Measured> {
         self.run(self.choice.closest)
     }
 
-    /// Of each candidate one run: first those that are right and within the limit, the cheapest
-    /// first; then of the others the one that is least wrong, or right and too slow, the least
-    /// wrong first.
+    /// Returns one run of each candidate: first those with a run that is right and within the
+    /// limit, by cost; then the other candidates, by the smallest error that they reach.
     pub fn ranked(&self) -> impl Iterator<Item = &Measured> {
         let is_taken = |run: &Measured| {
             let is_within = |limit: TimeLimit| limit.allows(run, self.samples);
             run.is_right() && self.limit.is_none_or(is_within)
         };
-        // Of right runs the time counts, of wrong ones the error.
+        // Right runs are ordered by time, wrong ones by error.
         let key = |run: &Measured| match (is_taken(run), run.is_right()) {
             (true, _) => (0, run.seconds),
             (false, true) => (1, run.seconds),
@@ -180,19 +182,36 @@ impl Advice {
         self.runs.get(index?)
     }
 
-    /// Returns where the setting of a run may lie.
+    /// Returns the method of a run of the full equations of motion in `f64`; `None` for other
+    /// models and scalars.
+    pub fn method(&self, run: &Measured) -> Option<Method> {
+        let name = self.names.get(run.candidate)?;
+        let is_full = name.model == "full" && name.scalar == "f64";
+        let mut methods = Method::ALL.iter().copied();
+        methods.find(|method| is_full && method.title() == name.method)
+    }
+
+    /// Returns the best run of the full equations of motion in `f64` that is right, with its
+    /// method; `None` if no run is right.
+    pub fn best_full(&self) -> Option<(&Measured, Method)> {
+        self.chosen()?;
+        let mut right = self.ranked().filter(|run| run.is_right());
+        right.find_map(|run| Some((run, self.method(run)?)))
+    }
+
+    /// Returns the range of settings of a run's candidate.
     pub fn range(&self, run: &Measured) -> SettingRange {
         let range = self.ranges.get(run.candidate);
         range.copied().unwrap_or(SettingRange::Fixed)
     }
 
-    /// Name and setting of a run, as one says them.
+    /// Returns name and setting of a run as text.
     pub fn describe(&self, run: &Measured) -> String {
         let setting = self.range(run).describe(run.setting);
         format!("{}, {setting}", self.names[run.candidate])
     }
 
-    /// Where a run is worst, as one says it.
+    /// Returns the largest error of a run and its position as text.
     pub fn evidence(&self, run: &Measured) -> String {
         let Some(worst) = &run.worst else {
             let why = run.failure.as_deref().unwrap_or("it failed");
@@ -227,7 +246,7 @@ impl Advice {
     }
 }
 
-/// A number of four digits at most, as one writes it.
+/// Formats a number with at most four digits.
 fn plain(value: f64) -> String {
     let value = format!("{value:.3e}").parse().unwrap_or(value);
     if (1e-3..1e6).contains(&value) {
@@ -237,7 +256,7 @@ fn plain(value: f64) -> String {
     }
 }
 
-/// A time, as one says it.
+/// Returns a time as text.
 fn time(seconds: f64) -> String {
     let (value, unit) = match seconds {
         s if s < 1e-6 => (1e9 * s, "ns"),
@@ -269,7 +288,7 @@ impl fmt::Display for Followed {
             f.write_str(match self.beyond {
                 Some(Criterion::Conserved) => "what the motion keeps",
                 Some(Criterion::Statistics) => "means and mean squares",
-                _ => "nothing",
+                Some(Criterion::Values) | None => "nothing",
             })?;
         }
         Ok(())

@@ -1,16 +1,16 @@
-//! Where a candidate begins to be good enough.
+//! Search for the coarsest setting at which a candidate is right.
 
 use crate::candidate::SettingRange;
 
-/// Runs of one candidate, at most.
+/// Largest number of runs of one candidate.
 const MOST: usize = 14;
 
-/// Looks for the coarsest setting that is good enough: `measure` takes the logarithm of
-/// a setting and returns the largest error over the one allowed, and the seconds that the
-/// run took. Ends where the setting is known well enough, where it costs more than
-/// `allowed` seconds and is still not good, and where finer settings are no better.
+/// Searches for the coarsest setting that is right. `measure` takes the logarithm of a setting and
+/// returns the ratio of the largest error to the allowed one, and the seconds of the run. The
+/// search ends if the setting is known well enough, if a run costs more than `allowed` seconds and
+/// its error is still too large, or if finer settings bring no improvement.
 ///
-/// `tolerance` is where to begin.
+/// The search starts at the setting for `tolerance`.
 pub(crate) fn bracket(
     range: SettingRange,
     tolerance: f64,
@@ -23,7 +23,7 @@ pub(crate) fn bracket(
         SettingRange::Tolerance { .. } => 2.0,
         SettingRange::Step { .. } | SettingRange::Fixed => 0.5,
     };
-    // Logarithm of a setting, and the error there.
+    // Logarithm of a setting, and its error.
     let mut good: Option<(f64, f64)> = None;
     let mut bad: Option<(f64, f64)> = None;
     let mut useless = 0;
@@ -32,7 +32,8 @@ pub(crate) fn bracket(
         if ratio <= 1.0 {
             good = Some((at, ratio));
         } else {
-            // Finer by some decades, it should be better by a good part of as many.
+            // A setting that is finer by some decades should reduce the error by a good part of as
+            // many decades.
             let no_better = bad.is_some_and(|(coarser, before)| {
                 let expected = power * (coarser - at);
                 at < coarser && (before / ratio).log10() < 0.2 * expected
@@ -68,16 +69,16 @@ pub(crate) fn bracket(
     }
 }
 
-/// The setting between two with their errors at which the error would be a little below the one
-/// allowed.
+/// Returns the setting between two settings at which the error should be a little below the allowed
+/// one.
 fn between((fine, low): (f64, f64), (coarse, high): (f64, f64)) -> f64 {
     let share = (0.8_f64.ln() - low.ln()) / (high.ln() - low.ln());
     let share = if share.is_finite() { share } else { 0.5 };
     fine + share.clamp(0.2, 0.8) * (coarse - fine)
 }
 
-/// How many times as dear a setting is that is finer by so many decades, at least: a step half as
-/// long costs twice as much.
+/// Returns a lower bound of the factor by which a run becomes more expensive if its setting is
+/// finer by `further` decades: half the step costs twice as much.
 fn cost_ratio(range: SettingRange, further: f64) -> f64 {
     match range {
         SettingRange::Step { .. } => 10.0_f64.powf(0.5 * further),
@@ -100,8 +101,8 @@ mod tests {
         finest: 1e-5,
     };
 
-    /// The runs of a method whose error is `factor` settingᵖ and whose cost is
-    /// setting^−c.
+    /// Simulates the search on a method with the error `factor` · settingᵖ and the cost setting^−c,
+    /// and returns its runs.
     fn runs(range: SettingRange, factor: f64, [p, c]: [f64; 2], allowed: f64) -> Vec<(f64, f64)> {
         let mut runs = Vec::new();
         bracket(range, 1.0, allowed, |at| {
@@ -134,7 +135,7 @@ mod tests {
         }
     }
 
-    /// Where the search begins, errors are a little too large, and go up and down.
+    /// Checks a search that starts where errors are slightly too large and fluctuate.
     #[test]
     fn an_error_that_is_nearly_right_is_pursued() {
         let mut found = f64::NAN;
@@ -151,7 +152,7 @@ mod tests {
 
     #[test]
     fn what_costs_too_much_is_left() {
-        // Good at a step of 1e-4, where it costs 1e4.
+        // Right at a step of 1e-4, which costs 1e4.
         let runs = runs(STEP, 1e4, [1.0, 1.0], 100.0);
         assert_eq!(coarsest_good(&runs), None);
         let dearest = runs.iter().fold(0.0_f64, |most, run| most.max(1.0 / run.0));
@@ -166,7 +167,7 @@ mod tests {
             (5.0, 1.0)
         });
         assert_eq!(count, 4);
-        // Nor is there anything to choose where nothing is chosen.
+        // Without a setting there is nothing to search.
         bracket(SettingRange::Fixed, 1e-6, f64::INFINITY, |_| {
             count += 1;
             (0.1, 1.0)

@@ -1,4 +1,4 @@
-//! Advice for trees that a program reads: their outputs, and the models that they have.
+//! Advice for trees that a program reads: their outputs and their models.
 
 use std::cell::RefCell;
 use std::error::Error;
@@ -9,7 +9,7 @@ use branched_pendulum::Transfer;
 use branched_pendulum::approximate::{Approximation, Linear};
 use branched_pendulum::sectors::Sectors;
 use branched_pendulum::system::{AbsoluteAngles, Model, State, Workspace};
-use branched_pendulum::transfer::{Given, SymmetricTree};
+use branched_pendulum::transfer::{StateInput, SymmetricTree};
 use branched_pendulum_trees::PendulumTree;
 
 use crate::advisor::Advisor;
@@ -26,13 +26,13 @@ use crate::wanted::Wanted;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum TreeOutput {
-    /// All angles, rad.
+    /// All angles, in rad.
     Angles,
-    /// The energy, J.
+    /// The energy, in J.
     Energy,
-    /// The ends of all links on a screen of 1000 pixels a metre.
+    /// The ends of all links on a screen of 1000 pixels a metre, in pixels.
     Pixels,
-    /// W into the first difference between copies, W.
+    /// Energy transfer into the first difference between identical branches, in W.
     Transfer,
 }
 
@@ -67,10 +67,10 @@ impl FromStr for TreeOutput {
     }
 }
 
-/// A name that no output has.
+/// Error: no output has this name.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct UnknownOutput {
-    /// The name given.
+    /// The unknown name.
     pub name: String,
 }
 
@@ -84,11 +84,11 @@ impl fmt::Display for UnknownOutput {
 
 impl Error for UnknownOutput {}
 
-/// Motions of a tree that a program reads, and what must be right of them.
+/// Motions of a tree that is read at run time, and the outputs that must be right.
 ///
-/// The candidates are the equations of motion by every method, in lanes where there are several
-/// starts, and the linear model about the place of rest nearest to the first start, where there
-/// is one and the times are ends of equal frames.
+/// The candidates are the equations of motion by every method, with several starts at once in
+/// vector registers if there are several, and the linear model about the rest position nearest to
+/// the first start, if there is one and the times are ends of equal frames.
 ///
 /// # Examples
 ///
@@ -111,31 +111,32 @@ impl Error for UnknownOutput {}
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct TreeScene {
-    /// States at the beginning, all at one time.
+    /// Initial states, all at the same time.
     pub starts: Vec<State<f64>>,
-    /// Times of the samples, s.
+    /// Times of the samples, in s.
     pub times: Vec<f64>,
-    /// Outputs with their largest errors, each in its unit.
+    /// Required outputs, each with its largest allowed error in its unit.
     pub right: Vec<(TreeOutput, f64)>,
-    /// Time that the choice may take.
+    /// Limit on the computing time of the chosen candidate.
     pub limit: Option<TimeLimit>,
 }
 
-/// Pixels a metre.
+/// Pixels per metre of the screen.
 const PIXELS: f64 = 1000.0;
 
-/// Largest drift of the energy beyond the horizon of chaos, J.
+/// Largest drift of the energy after the motion has become unpredictable, in J.
 const DRIFT: f64 = 1e-6;
 
-/// The part of a frame by which frames may differ.
+/// Largest difference between the lengths of frames, as a fraction of a frame.
 const AWAY: f64 = 1e-6;
 
 impl TreeScene {
-    /// Measures all candidates and chooses among them, as [`Advisor::advise`].
+    /// Measures all candidates and chooses among them like [`Advisor::advise`].
     ///
     /// # Errors
     ///
-    /// [`AdviceError`]; [`AdviceError::Tree`] for the transfer of a tree without copies.
+    /// [`AdviceError`]; [`AdviceError::Tree`] for the output `transfer` of a tree without identical
+    /// branches.
     pub fn advise(&self, tree: &PendulumTree) -> Result<Advice, AdviceError> {
         let wants = |wanted| self.right.iter().any(|(output, _)| *output == wanted);
         let symmetric = match wants(TreeOutput::Transfer) {
@@ -164,7 +165,7 @@ impl TreeScene {
         advisor.advise(&self.candidates(tree))
     }
 
-    /// The tree as it is, and its linear model about its rest where it has one.
+    /// Returns the complete model, and the linear model about the rest position if there is one.
     fn candidates<'a>(&self, tree: &'a PendulumTree) -> Candidates<'a> {
         let full = ModelForm::new("full").read_at_run_time();
         let mut candidates = Candidates::new();
@@ -172,9 +173,11 @@ impl TreeScene {
             && let Some(first) = self.starts.first()
         {
             let theta = first.values.get(..tree.links()).unwrap_or_default();
-            let rest = tree.equilibrium(theta);
+            let rest = tree.stable_equilibrium(theta);
             // What has no linear model is not asked for one.
-            if let Some(linear) = rest.ok().and_then(|rest| Linear::about(tree, &rest).ok())
+            if let Some(linear) = rest
+                .ok()
+                .and_then(|rest| Linear::about(tree, &rest.theta).ok())
                 && let (Ok(mut double), Ok(mut single)) =
                     (linear.frames::<f64>(frame), linear.frames::<f32>(frame))
             {
@@ -195,8 +198,8 @@ impl TreeScene {
         }
     }
 
-    /// Length of the frames at whose ends all times are, s; none of times that are spaced
-    /// otherwise.
+    /// Returns the length of the frames (s) at whose ends all times lie; `None` if the times are
+    /// spaced unevenly.
     fn frame(&self) -> Option<f64> {
         let begin = self.starts.first()?.time;
         let frame = self.times.first()? - begin;
@@ -210,11 +213,12 @@ impl TreeScene {
     }
 }
 
-/// Returns whether nothing gives a tree energy or takes it.
+/// Returns true if the tree has no drive and no friction.
 fn is_conservative(tree: &PendulumTree) -> bool {
-    // Rates of which no two are equal: friction in every pivot takes power from them.
+    // No two rates are equal, so that friction in any pivot dissipates power.
     let rates: Vec<f64> = (1..=tree.links()).map(|link| link as f64).collect();
-    // A straight damper between points that keep their distance at these rates takes none.
+    // A straight damper may connect points whose distance is constant at these rates, so it is
+    // checked separately.
     let mut straight = tree.translational_spring_dampers().iter();
     let is_damped = straight.any(|own| own.friction.is_some_and(|friction| friction != 0.0));
     let angles = vec![0.0; rates.len()];
@@ -229,7 +233,7 @@ fn transfer(symmetric: &SymmetricTree<f64>, tolerance: f64) -> Wanted<'_> {
     Wanted::new("transfer", "W", tolerance, move |_, state, out| {
         let (workspace, transfers) = &mut *memory.borrow_mut();
         let (theta, omega) = state.split_at(state.len() / 2);
-        let given = Given::Absolute { theta, omega };
+        let given = StateInput::Absolute { theta, omega };
         symmetric.exact_transfers(workspace, given, transfers);
         out.extend(transfers.get(1).map(|transfer| transfer.total()));
     })

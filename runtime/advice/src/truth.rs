@@ -1,4 +1,4 @@
-//! The reference: states that are known better than they are asked for, and how far.
+//! The reference: states more accurate than the tolerances require, with estimates of their errors.
 
 use std::error::Error;
 
@@ -9,17 +9,17 @@ use branched_pendulum::integrate::{Dop853, Integrator, Options, Verner98};
 use branched_pendulum::scalar::{Double, Scalar};
 use branched_pendulum::system::{CastOde, Ode, State};
 
-/// A way to compute references.
+/// A method of computing references.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Precise {
     Verner98(f64),
     Dop853(f64),
-    /// In double-double numbers.
+    /// Extrapolation in double-double numbers, with this tolerance.
     Extrapolated(f64),
 }
 
-/// Ways in pairs, of which the difference tells the error, from the cheapest on: the
-/// first of a pair is the reference.
+/// Pairs of methods, from the cheapest to the most accurate. The difference of a pair estimates the
+/// error of its first method, which is the reference.
 const LADDER: [[Precise; 2]; 3] = [
     [Precise::Verner98(1e-14), Precise::Dop853(2e-14)],
     [Precise::Extrapolated(1e-21), Precise::Extrapolated(1e-18)],
@@ -38,11 +38,12 @@ impl Precise {
     }
 }
 
-/// A system that is integrated in `f64` and in double-double numbers.
+/// A system that can be integrated in `f64` and in double-double numbers.
 pub(crate) trait Exact {
     fn dimension(&self) -> usize;
 
-    /// Follows a start, each component `moved` by as much, if it is.
+    /// Integrates from a start. If `moved` is given, it is the change of each component of the
+    /// start.
     fn follow(
         &self,
         by: Precise,
@@ -108,34 +109,35 @@ impl<O: CastOde<f64, Double>> Exact for O {
     }
 }
 
-/// The scene as it moves, and how far it is known.
+/// Reference motion of the scene, with its errors.
 #[derive(Clone, Debug)]
 pub(crate) struct Truth {
     pub(crate) method: String,
-    /// For each output: its values.
+    /// Values of each output.
     pub(crate) outputs: Vec<OutputValues>,
-    /// For each output and time: the error of the reference.
+    /// Error of the reference, for each output and time.
     errors: Vec<Vec<f64>>,
-    /// For each output: the number of times up to which its values are asked for.
+    /// For each output, the number of times at which its values are compared with the reference.
     pub(crate) trusted: Vec<usize>,
     pub(crate) digits: Digits,
 }
 
-/// How long the digits of `f64` last.
+/// Numbers of times until which the 16 digits of `f64` suffice.
 #[derive(Clone, Debug)]
 pub(crate) struct Digits {
-    /// For each output: the number of times up to which some roundings do not matter.
+    /// For each output, the number of times at which accumulated rounding errors are negligible.
     limits: Vec<usize>,
-    /// True if a single one matters before the end.
+    /// True if one rounding error is enough to spoil a value before the end.
     are_too_few: bool,
-    /// Rate at which small deviations grow, 1/s, where it was looked at.
+    /// Growth rate of small deviations, in 1/s, if it was computed.
     pub(crate) growth: Option<f64>,
 }
 
-/// The part of a tolerance that the reference may be off by.
+/// Largest allowed error of the reference, as a fraction of the tolerance.
 const SHARE: f64 = 0.01;
 
-/// Follows all starts, each moved by roundings of the paths that it goes `along`, if there are any.
+/// Integrates from all starts. If the paths `along` are given, each start is perturbed by the
+/// rounding errors estimated along its path.
 fn follow_all(
     exact: &dyn Exact,
     by: Precise,
@@ -153,7 +155,8 @@ fn follow_all(
     Ok(paths)
 }
 
-/// For each output: the number of times up to which two runs agree to the part of the tolerance.
+/// Returns, for each output, the number of times at which two runs agree within [`SHARE`] of the
+/// tolerance.
 fn known_until(
     outputs: &[OutputValues],
     checks: &[OutputValues],
@@ -166,15 +169,15 @@ fn known_until(
         .collect()
 }
 
-/// The first time at which two runs differ by more than `most`.
+/// Returns the index of the first time at which two runs differ by more than `most`.
 fn parting(a: &OutputValues, b: &OutputValues, most: f64) -> usize {
     let apart = |&time: &usize| a.difference(b, time) > most;
     (0..a.times).find(apart).unwrap_or(a.times)
 }
 
 impl Truth {
-    /// Follows the scene with methods that get better until they agree to a hundredth of
-    /// the tolerances; at least as far as numbers of 16 digits can follow it.
+    /// Computes the reference with increasingly accurate methods, until a pair agrees to a
+    /// hundredth of the tolerances or the 16 digits of `f64` no longer determine the motion.
     pub(crate) fn find(
         exact: &dyn Exact,
         starts: &[State<f64>],
@@ -230,8 +233,8 @@ impl Truth {
         found
     }
 
-    /// Asks for values only as long as some roundings do not matter. Returns true if that
-    /// is shorter than before.
+    /// Shortens the comparison to the times at which rounding errors are negligible. Returns true
+    /// if it became shorter.
     pub(crate) fn trust_less(&mut self) -> bool {
         let before = self.trusted.clone();
         for (trusted, limit) in self.trusted.iter_mut().zip(&self.digits.limits) {
@@ -240,7 +243,7 @@ impl Truth {
         self.trusted != before
     }
 
-    /// Largest error of the reference of an output, as far as its values are asked for.
+    /// Returns the largest error of the reference of an output, over all times that are compared.
     pub(crate) fn error(&self, output: usize) -> f64 {
         let errors = self.errors[output].iter().take(self.trusted[output]);
         errors.copied().fold(0.0, f64::max)
@@ -248,7 +251,7 @@ impl Truth {
 }
 
 impl Digits {
-    /// Digits that last to the end, as far as was looked.
+    /// Creates digits that suffice to the end.
     fn that_last(outputs: usize, times: usize) -> Self {
         Self {
             limits: vec![times; outputs],
@@ -257,14 +260,15 @@ impl Digits {
         }
     }
 
-    /// Returns whether outputs that are `known` for as many times are so to the end, or as long
-    /// as the digits last.
+    /// Returns true if the numbers of times in `known` reach to the end, or as far as the digits
+    /// suffice.
     fn suffice(&self, known: &[usize], times: usize) -> bool {
         let mut both = known.iter().zip(&self.limits);
         both.all(|(&known, &limit)| known >= if self.are_too_few { limit } else { times })
     }
 
-    /// By what became of a start that was moved by some roundings.
+    /// Estimates the digits by comparing the motion from a start with the motion from a perturbed
+    /// start.
     fn of(
         own: &[OutputValues],
         moved: &[OutputValues],
@@ -277,7 +281,7 @@ impl Digits {
                 .map(|((own, moved), wanted)| parting(own, moved, share * wanted.tolerance))
                 .collect()
         };
-        // As long as it is small, a deviation is in proportion to what it was.
+        // While a deviation is small, it is proportional to its initial value.
         let of_one = until(2.0 * MOVE / f64::EPSILON);
         Self {
             limits: until(1.0),
@@ -290,13 +294,13 @@ impl Digits {
     }
 }
 
-/// Mean rate at which a deviation grows while it is small, over all starts; none if it
-/// does not by a factor of ten.
+/// Returns the mean growth rate of a deviation while it is small, over all starts; `None` if it
+/// grows by less than a factor of ten.
 fn rate_of_growth(own: &Paths, moved: &Paths, starts: usize, times: &[f64]) -> Option<f64> {
     let rate = |start: usize| {
         let distances =
             (0..times.len()).map(|time| (times[time], own.distance(moved, start, time)));
-        // Below, the digits end; above, the deviation is no longer small.
+        // Below this range the digits end; above it the deviation is no longer small.
         let mut small = distances.filter(|(_, distance)| (1e-13..1e-2).contains(distance));
         let (first, last) = (small.next()?, small.next_back()?);
         let growth = (last.1 / first.1).ln();

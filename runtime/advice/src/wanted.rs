@@ -1,15 +1,14 @@
-//! OutputValues that must be right, each with its tolerance.
+//! Outputs that must be right, each with its tolerance.
 
 use std::cell::RefCell;
 use std::fmt;
 
 use branched_pendulum::system::{Energy, LinkPoint, Positions, Workspace};
 
-/// Writes the values of an output at a time and a state of the scene.
+/// Writes the values of an output, computed from the time and the state of the scene.
 type WriteOutput<'a> = Box<dyn Fn(f64, &[f64], &mut Vec<f64>) + 'a>;
 
-/// An output that must be right: a function of the state, and the largest error that
-/// any of its values may have.
+/// An output that must be right: a function of the state, and the largest error of its values.
 pub struct Wanted<'a> {
     pub(crate) name: String,
     pub(crate) unit: &'static str,
@@ -18,8 +17,8 @@ pub struct Wanted<'a> {
 }
 
 impl<'a> Wanted<'a> {
-    /// The values that `values(time, state, out)` pushes to `out`, as many for every
-    /// state, right to `tolerance` in `unit`.
+    /// Creates an output from the values that `values(time, state, out)` appends to `out`, the same
+    /// number for every state. They must be right to within `tolerance`, given in `unit`.
     pub fn new(
         name: impl Into<String>,
         unit: &'static str,
@@ -34,21 +33,21 @@ impl<'a> Wanted<'a> {
         }
     }
 
-    /// All angles, or other positions: the first half of the state.
+    /// Creates the output of all angles, or other coordinates: the first half of the state.
     pub fn angles(tolerance: f64) -> Self {
         Self::new("angles", "rad", tolerance, |_, state, out| {
             out.extend_from_slice(state.split_at(state.len() / 2).0);
         })
     }
 
-    /// All components of the state.
+    /// Creates the output of all components of the state.
     pub fn state(tolerance: f64) -> Self {
         Self::new("state", "", tolerance, |_, state, out| {
             out.extend_from_slice(state);
         })
     }
 
-    /// The energy, of a model in absolute angles.
+    /// Creates the output of the energy, for a model in absolute angles.
     pub fn energy(model: &'a impl Energy<f64>, tolerance: f64) -> Self {
         let memory = RefCell::new(Workspace::new());
         Self::new("energy", "J", tolerance, move |_, state, out| {
@@ -59,8 +58,8 @@ impl<'a> Wanted<'a> {
         })
     }
 
-    /// The ends of all links on a screen of so many pixels a metre, of a model in
-    /// absolute angles.
+    /// Creates the output of the ends of all links on a screen with this number of pixels per
+    /// metre, for a model in absolute angles.
     pub fn pixels(model: &'a impl Positions<f64>, per_metre: f64, tolerance: f64) -> Self {
         Self::new("pixels", "px", tolerance, move |_, state, out| {
             let theta = state.split_at(state.len() / 2).0;

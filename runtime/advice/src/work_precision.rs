@@ -1,4 +1,4 @@
-//! Error against cost of methods on one motion.
+//! Work-precision diagrams: error against cost of methods on one motion.
 
 use std::fmt;
 use std::hint::black_box;
@@ -11,31 +11,33 @@ use branched_pendulum::system::{Ode, State, TaylorOde};
 use crate::error::AdviceError;
 use crate::extrapolation::extrapolate;
 
-/// How long a run is repeated for its shortest time, unless three runs take longer.
+/// Total duration of the repetitions of a run, of which the shortest counts; at least three are
+/// made.
 const REPEATED: Duration = Duration::from_millis(30);
 
-/// Steps of a run, made and failed together.
+/// Largest number of steps of a run, completed and failed.
 const STEPS: u64 = 5_000_000;
 
-/// Tolerances of the two runs that make a [`KnownEnd`].
+/// Tolerances of the two runs that compute a [`KnownEnd`].
 const TOLERANCES: [f64; 2] = [1e-18, 1e-21];
 
-/// Where a motion ends, from numbers of 31 digits.
+/// State at the end of a motion, computed with 31 digits.
 #[derive(Clone, Debug, PartialEq)]
 pub struct KnownEnd {
-    /// The values at the end, rounded.
+    /// Values at the end, rounded to `f64`.
     pub values: Vec<f64>,
-    /// How well they are known: the largest difference of two runs, one with a tolerance a thousand
-    /// times that of the other. Large for a chaotic motion that is followed too long.
+    /// Estimated error: the largest difference between two runs with tolerances that differ by a
+    /// factor of a thousand. It is large if a chaotic motion is followed too long.
     pub uncertainty: f64,
 }
 
 impl KnownEnd {
-    /// Follows a system from `start` to the time `end`, twice, by extrapolation of the midpoint
-    /// rule: its coefficients are exact, where those of Runge–Kutta pairs are rounded to `f64`.
+    /// Integrates a system from `start` to the time `end` twice, by extrapolation of the midpoint
+    /// rule. Its coefficients are exact, whereas coefficients of Runge–Kutta pairs are rounded to
+    /// `f64`.
     ///
     /// # Errors
-    /// [`AdviceError::Reference`] of either run.
+    /// [`AdviceError::Reference`] if one of the runs fails.
     pub fn of<O: Ode<Double>>(
         system: &O,
         start: &State<f64>,
@@ -59,8 +61,8 @@ impl KnownEnd {
     }
 }
 
-/// Largest difference of two lists of values; infinite of lists of another length, and of what is
-/// no number.
+/// Returns the largest difference of two lists of values; infinite if their lengths differ or a
+/// value is NaN.
 fn difference(one: &[f64], other: &[f64]) -> f64 {
     if one.len() != other.len() {
         return f64::INFINITY;
@@ -80,14 +82,15 @@ fn difference(one: &[f64], other: &[f64]) -> f64 {
 pub struct MethodRun {
     /// The method.
     pub method: Method,
-    /// Tolerance, or step in s of a method with steps of one length.
+    /// Tolerance, or step length in s for a method with constant steps.
     pub setting: f64,
-    /// Largest error of the values at the end, in their units; infinite where there are not as many
-    /// expected ones.
+    /// Largest error of the values at the end, in their units; infinite if the number of expected
+    /// values differs.
     pub error: f64,
-    /// Time, s: the shortest of several, since what disturbs a run only lengthens it.
+    /// Time in s, the shortest of several, since disturbances only lengthen a run.
     pub seconds: f64,
-    /// Evaluations of the right-hand side; of Taylor series the orders of their coefficients.
+    /// Number of evaluations of the right-hand side; for Taylor series the sum of the orders of
+    /// their coefficients.
     pub evaluations: u64,
 }
 
@@ -117,7 +120,7 @@ pub struct WorkPrecision {
 }
 
 impl WorkPrecision {
-    /// The methods that are usually compared.
+    /// Methods that are compared by default.
     pub const METHODS: [Method; 8] = [
         Method::Rk4,
         Method::Dopri5,
@@ -129,20 +132,20 @@ impl WorkPrecision {
         Method::Gauss(GaussOrder::Eight),
     ];
 
-    /// Runs `methods`, each at many tolerances or steps from loose to tight, from `start` to
-    /// the time `end`, where the values should be `expected`.
+    /// Runs `methods`, each at many tolerances or steps from loose to tight, from `start` to the
+    /// time `end`, where the values should be `expected`.
     ///
-    /// Before each run `told` hears its method and the part of all runs that are done, 0 to 1. A
-    /// run that fails is left out: its step is too long, or the system gives no Taylor
-    /// coefficients. Steps of Gauss methods are not halved where they cannot be solved in one
-    /// piece. Each run is repeated for some 30 ms, at least three times.
+    /// Before each run, `told` is called with the method and the completed fraction (0 to 1) of all
+    /// runs. A run that fails is left out: its step is too long, or the system provides no Taylor
+    /// coefficients. A step of a Gauss method whose equations cannot be solved is not halved. Each
+    /// run is repeated for some 30 ms, at least three times.
     pub fn measure<O: TaylorOde<f64>>(
         system: &O,
         start: &State<f64>,
         end: f64,
         expected: &[f64],
         methods: &[Method],
-        mut told: impl FnMut(Method, f64),
+        mut reported: impl FnMut(Method, f64),
     ) -> Self {
         let settings = |method: Method| settings(method).into_iter();
         let all = methods.iter();
@@ -150,7 +153,7 @@ impl WorkPrecision {
         let all: Vec<(Method, f64)> = all.collect();
         let mut runs = Vec::new();
         for (number, &(method, setting)) in all.iter().enumerate() {
-            told(method, number as f64 / all.len() as f64);
+            reported(method, number as f64 / all.len() as f64);
             let integrator = method.with(setting).with_step_limit(STEPS).with_halvings(0);
             let run = || {
                 let start = black_box(start);
@@ -170,19 +173,20 @@ impl WorkPrecision {
         Self { runs }
     }
 
-    /// Runs that were measured somewhere else, each method's from loose to tight.
+    /// Creates a diagram from runs measured elsewhere; those of a method must be ordered from loose
+    /// to tight.
     #[must_use]
     pub const fn of(runs: Vec<MethodRun>) -> Self {
         Self { runs }
     }
 
-    /// All runs, method by method, from loose to tight.
+    /// Returns all runs, method by method, from loose to tight.
     #[must_use]
     pub fn runs(&self) -> &[MethodRun] {
         &self.runs
     }
 
-    /// The methods that have runs, in the order of these.
+    /// Returns the methods that have runs, in their order.
     #[must_use]
     pub fn methods(&self) -> Vec<Method> {
         let mut methods: Vec<Method> = self.runs.iter().map(|run| run.method).collect();
@@ -190,13 +194,13 @@ impl WorkPrecision {
         methods
     }
 
-    /// The runs of a method.
+    /// Returns the runs of a method.
     pub fn runs_of(&self, method: Method) -> impl Iterator<Item = &MethodRun> {
         self.runs.iter().filter(move |run| run.method == method)
     }
 
-    /// Time that an error costs with a method, in s: interpolated between its runs, both on a
-    /// logarithmic scale. None where no run is as good.
+    /// Returns the time (s) that a method takes for an error, interpolated between its runs on
+    /// logarithmic scales. `None` if no run is as accurate.
     #[must_use]
     pub fn seconds(&self, method: Method, error: f64) -> Option<f64> {
         let mut before = None;
@@ -205,7 +209,7 @@ impl WorkPrecision {
                 before = Some(after);
                 continue;
             }
-            // Nothing lies between on a logarithmic scale that has no end.
+            // An infinite error has no logarithm to interpolate.
             let before =
                 before.filter(|before: &&MethodRun| before.error.is_finite() && after.error > 0.0);
             let share = before.map(|before| {
@@ -217,7 +221,8 @@ impl WorkPrecision {
         None
     }
 
-    /// The method that costs the least time for an error; none where no run is as good.
+    /// Returns the method that reaches an error in the shortest time; `None` if no run is as
+    /// accurate.
     #[must_use]
     pub fn fastest(&self, error: f64) -> Option<Method> {
         let times = self.methods().into_iter();
@@ -226,7 +231,8 @@ impl WorkPrecision {
         best.map(|(method, _)| method)
     }
 
-    /// Times for some errors in words: a row a method, in µs, the shortest of each error marked.
+    /// Returns a table of times as text: one row per method, one column for each of `errors`, in
+    /// µs, with the shortest time of each column marked.
     #[must_use]
     pub fn table<'a>(&'a self, errors: &'a [f64]) -> impl fmt::Display + 'a {
         CostTable {
@@ -236,7 +242,7 @@ impl WorkPrecision {
     }
 }
 
-/// What a table of times shows.
+/// Contents of a table of times.
 struct CostTable<'a> {
     measured: &'a WorkPrecision,
     errors: &'a [f64],
@@ -267,7 +273,7 @@ impl fmt::Display for CostTable<'_> {
     }
 }
 
-/// Tolerances or steps of a method, from loose to tight.
+/// Returns the tolerances or steps of a method, from loose to tight.
 fn settings(method: Method) -> Vec<f64> {
     let steps = |longest: f64, count: i32| {
         let halves = |k| longest * 0.5_f64.powf(0.5 * f64::from(k));
@@ -279,13 +285,13 @@ fn settings(method: Method) -> Vec<f64> {
     };
     match method {
         Method::Taylor => tolerances(32),
-        _ if method.is_adaptive() => tolerances(28),
+        Method::Dopri5 | Method::Dop853 | Method::Verner98 => tolerances(28),
         Method::Rk4 => steps(0.02, 14),
-        _ => steps(0.08, 11),
+        Method::Gauss(_) | Method::Animation => steps(0.08, 11),
     }
 }
 
-/// The shortest time of repeated runs, s.
+/// Returns the shortest time of repeated runs, in s.
 fn shortest<R>(run: impl Fn() -> R) -> f64 {
     let (mut best, mut spent, mut runs) = (Duration::MAX, Duration::ZERO, 0);
     while runs < 3 || (spent < REPEATED && runs < 1000) {
@@ -326,7 +332,7 @@ mod tests {
         assert_eq!(time(1.0), Some(10.0));
         assert_eq!(time(1e-5), None);
         assert_eq!(measured.seconds(Method::Taylor, 1.0), None);
-        // Without an error, and with one of which nothing is known, there is no line between.
+        // Runs without an error, or with an infinite one, are not interpolated.
         let edges = WorkPrecision::of(vec![
             run(Method::Rk4, f64::INFINITY, 1.0),
             run(Method::Rk4, 1e-2, 10.0),
@@ -351,7 +357,8 @@ mod tests {
         assert_eq!(rows[2][rows[2].len() - 3..], ["50000000", "50000000*", "-"]);
     }
 
-    /// Errors fall with the order of each method; what fails is left out.
+    /// Checks that errors decrease with the order of each method, and that failed runs are left
+    /// out.
     #[test]
     fn errors_fall_as_the_orders_say() {
         let turn = OdeFn::new(2, |_time: f64, y: &[f64], rates: &mut [f64]| {
@@ -364,7 +371,7 @@ mod tests {
         });
         let known = KnownEnd::of(&wide, &start, 2.0).unwrap();
         assert!(known.uncertainty < 1e-17, "{known:?}");
-        // Rounded alone.
+        // The only error is that of rounding to `f64`.
         assert!(difference(&known.values, &expected) < 1.2e-16, "{known:?}");
         let methods = [Method::Rk4, Method::Taylor, Method::Gauss(GaussOrder::Four)];
         let mut parts = Vec::new();
@@ -376,7 +383,7 @@ mod tests {
             &methods,
             |method, part| parts.push((method, part)),
         );
-        // Without its coefficients a system has no Taylor series.
+        // A system that provides no Taylor coefficients has no Taylor series.
         assert_eq!(measured.methods(), [methods[0], methods[2]]);
         assert!(parts.is_sorted_by(|(_, a), (_, b)| a < b));
         assert_eq!(parts.first(), Some(&(Method::Rk4, 0.0)));

@@ -9,7 +9,7 @@ use crate::legend;
 use crate::scale::{coordinate, drawable};
 use crate::style::{Color, Fill, Style};
 
-/// The cells of a series, as far as they are in view.
+/// Adds the filled cells of a series, as far as they are in view, to `marks`.
 pub(crate) fn cells(
     series: &Series,
     style: Style,
@@ -27,7 +27,7 @@ pub(crate) fn cells(
     });
 }
 
-/// The cell of a sample, as far as it is in view.
+/// Returns the rectangle of the cell about a sample, as far as it is in view.
 pub(crate) fn cell(
     (x, y): (f64, f64),
     grid: &Grid,
@@ -58,7 +58,7 @@ pub(crate) fn cell(
     (cell.left < cell.right && cell.top < cell.bottom).then_some(cell)
 }
 
-/// The area of a band, in one piece between gaps; nothing for other series.
+/// Adds the area of a band to `marks`, one polygon between two gaps; nothing for other series.
 pub(crate) fn band(
     series: &Series,
     style: Style,
@@ -101,7 +101,8 @@ pub(crate) fn band(
     });
 }
 
-/// The sample in a legend, its left end in the middle of the line.
+/// Returns the filled box that stands for the series in a legend; the middle of its left edge is at
+/// `(x, middle)`.
 pub(crate) fn sample((x, middle): Point, color: Color, fill: Fill) -> Mark {
     let (left, right) = (x + 0.2 * legend::SAMPLE, x + 0.8 * legend::SAMPLE);
     let cell = Rect {

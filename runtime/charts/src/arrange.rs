@@ -1,7 +1,7 @@
 use crate::axis::scales;
 use crate::clip::Rect;
 use crate::color_bar::ColorBar;
-use crate::description::{Chart, Panel};
+use crate::description::{Axis, Chart, Panel};
 use crate::drawing::LARGEST_SIDE;
 use crate::error::ChartError;
 use crate::font::Font;
@@ -14,9 +14,9 @@ use crate::sizes::{
     NAME_GAP, PANEL_GAP, TICK, TICK_GAP, TICK_LINE, TICK_SIZE, TITLE_LINE, TITLE_SIZE,
 };
 use crate::style::Style;
-use crate::ticks::{Ticks, most, tick_labels, ticks};
+use crate::ticks::{Ticks, labelled, most, tick_labels};
 
-/// Where everything stands.
+/// Positions of all parts of the chart.
 pub(crate) struct Plan {
     pub(crate) width: f64,
     pub(crate) height: f64,
@@ -31,28 +31,28 @@ pub(crate) struct XAxis {
     pub(crate) scale: Scale,
     pub(crate) ticks: Ticks,
     pub(crate) label: Vec<Label>,
-    /// The part common to the tick labels has a line of its own, since the
-    /// label of the axis leaves no room beside it.
+    /// True if the common part of the tick labels is on its own line, because there is no room for
+    /// it next to the label of the axis.
     pub(crate) common_below: bool,
 }
 
 pub(crate) struct PanelPlan {
     pub(crate) frame: Rect,
-    /// Left edge of the label of its y axis.
+    /// Left edge of the label of the panel's y axis, in px.
     pub(crate) outer_left: f64,
-    /// The x axis is labelled below it: it is the last of its column.
+    /// True if the x axis is labelled below this panel, since it is the last of its column.
     pub(crate) lowest: bool,
     pub(crate) scale: Scale,
     pub(crate) ticks: Ticks,
     pub(crate) label: Vec<Label>,
-    pub(crate) strip: Above,
+    pub(crate) strip: Heading,
     pub(crate) styles: Vec<Style>,
 }
 
-/// What stands above a panel.
-pub(crate) struct Above {
+/// Text above a panel.
+pub(crate) struct Heading {
     pub(crate) guides: Vec<Guide>,
-    /// Name of the panel, and how far from its left edge it begins.
+    /// Name of the panel, with the distance of its beginning from the panel's left edge.
     pub(crate) name: Vec<Label>,
     pub(crate) indent: f64,
     height: f64,
@@ -95,7 +95,7 @@ struct Sketch<'a> {
 }
 
 impl Sketch<'_> {
-    /// The plan whose parts are chosen for panels as high as `heights`.
+    /// Returns the plan for panels of these heights.
     fn plan(&self, heights: &[f64]) -> Result<Plan, ChartError> {
         let Self { chart, font, .. } = *self;
         let inner = chart.width - 2.0 * EDGE;
@@ -104,13 +104,14 @@ impl Sketch<'_> {
 
         let all = heights.iter().step_by(chart.columns).sum();
         let colors = ColorBar::plan(chart, font, all)?;
-        let y_ticks: Vec<Ticks> = self
-            .y
-            .iter()
-            .zip(heights)
-            .map(|(scale, height)| ticks(scale, most(*height, 42.0)))
-            .collect();
-        let y_labels = self.y_labels(heights);
+        let y = chart.panels.iter().zip(self.y).zip(heights);
+        let y = y.map(|((panel, scale), height)| {
+            let (ticks, label) = labelled(&panel.y, scale, most(*height, 42.0));
+            let label = Label::parse(&label);
+            let room = height.max(LEAST_PANEL.1);
+            (ticks, label.wrap(font, LABEL_SIZE, room))
+        });
+        let (y_ticks, y_labels): (Vec<Ticks>, Vec<Vec<Label>>) = y.unzip();
         let margin = self.margin(&y_ticks, &y_labels);
         let columns = chart.columns.min(chart.panels.len()) as f64;
         let bar = colors.as_ref().map_or(0.0, ColorBar::width);
@@ -120,7 +121,7 @@ impl Sketch<'_> {
         let step = column + COLUMN_GAP;
         let left = EDGE + margin;
         let beyond = chart.width - bar - (columns - 1.0) * step;
-        let (ticks, right) = self.x_ticks(left, EDGE + column, beyond);
+        let ((ticks, label), right) = self.x_ticks(left, EDGE + column, beyond);
         let room = right - left;
         if room < LEAST_PANEL.0 {
             return Err(ChartError::NoRoom {
@@ -128,7 +129,7 @@ impl Sketch<'_> {
                 left: room,
             });
         }
-        let x = self.x_axis(ticks, room);
+        let x = self.x_axis(ticks, &label, room);
 
         let mut top = EDGE + title.len() as f64 * TITLE_LINE;
         let across = |index: usize| Rect {
@@ -139,7 +140,7 @@ impl Sketch<'_> {
         };
         let strips = chart.panels.iter().zip(&y_ticks).enumerate();
         let strips = strips.map(|(index, (panel, ticks))| self.strip(panel, ticks, &across(index)));
-        let strips: Vec<Above> = strips.collect();
+        let strips: Vec<Heading> = strips.collect();
         let bottom = x.height() + self.legend_height(&legend, inner) + EDGE;
         let rows = self.rows(&strips, chart.height - top - bottom);
 
@@ -180,11 +181,11 @@ impl Sketch<'_> {
         })
     }
 
-    /// Heights of the strips and of the panels below them, row by row, that fill `free` together
-    /// with the gaps.
-    fn rows(&self, strips: &[Above], free: f64) -> Vec<[f64; 2]> {
+    /// Returns the heights of the text above the panels and of the panels, row by row; together
+    /// with the gaps they fill `free` px.
+    fn rows(&self, strips: &[Heading], free: f64) -> Vec<[f64; 2]> {
         // The strips of a row are as high as its highest.
-        let highest = |row: &[Above]| row.iter().map(|strip| strip.height).fold(0.0, f64::max);
+        let highest = |row: &[Heading]| row.iter().map(|strip| strip.height).fold(0.0, f64::max);
         let above: Vec<f64> = strips.chunks(self.chart.columns).map(highest).collect();
         let rows = above.len() as f64;
         let free = free - above.iter().sum::<f64>() - PANEL_GAP * (rows - 1.0);
@@ -192,17 +193,7 @@ impl Sketch<'_> {
         above.into_iter().map(|above| [above, height]).collect()
     }
 
-    fn y_labels(&self, heights: &[f64]) -> Vec<Vec<Label>> {
-        let panels = self.chart.panels.iter().zip(heights);
-        let wrap = |label: &str, height: f64| {
-            Label::parse(label).wrap(self.font, LABEL_SIZE, height.max(LEAST_PANEL.1))
-        };
-        panels
-            .map(|(p, height)| wrap(&p.y.label, *height))
-            .collect()
-    }
-
-    /// Room left of each panel, for the widest labels and tick labels.
+    /// Returns the width needed left of each panel, for the widest axis label and tick labels.
     fn margin(&self, ticks: &[Ticks], labels: &[Vec<Label>]) -> f64 {
         let lines = labels.iter().map(Vec::len).max().unwrap_or(0) as f64;
         let gap = if lines > 0.0 { LABEL_GAP } else { 0.0 };
@@ -211,18 +202,19 @@ impl Sketch<'_> {
         lines * LABEL_LINE + gap + widest + TICK + TICK_GAP
     }
 
-    /// Ticks of the x axis, as many as fit, and the right edge of the first column,
-    /// moved in where the last label would reach `beyond`: the canvas' edge for
-    /// the last column.
-    fn x_ticks(&self, left: f64, right: f64, beyond: f64) -> (Ticks, f64) {
-        let wide = fitting(&self.x, right - left, self.font);
+    /// Returns ticks and label of the x axis, with as many ticks as fit, and the right edge of the
+    /// first column. The edge is moved inwards if the last tick label would extend beyond `beyond`,
+    /// which is the edge of the canvas for the last column.
+    fn x_ticks(&self, left: f64, right: f64, beyond: f64) -> ((Ticks, String), f64) {
+        let fitting = |right: f64| fitting(&self.chart.x, &self.x, right - left, self.font);
+        let (wide, _) = fitting(right);
         let half = widest(&tick_labels(&wide), self.font, TICK_SIZE) / 2.0;
         let right = right.min(beyond - half - 4.0);
-        (fitting(&self.x, right - left, self.font), right)
+        (fitting(right), right)
     }
 
-    fn x_axis(&self, ticks: Ticks, room: f64) -> XAxis {
-        let label = Label::parse(&self.chart.x.label);
+    fn x_axis(&self, ticks: Ticks, label: &str, room: f64) -> XAxis {
+        let label = Label::parse(label);
         let common = ticks.common.as_deref().map_or(0.0, |common| {
             Label::parse(common).width(self.font, TICK_SIZE)
         });
@@ -235,9 +227,9 @@ impl Sketch<'_> {
         }
     }
 
-    /// Text above a panel: what is common to the tick labels, the panel's name, and labels of
-    /// marker lines.
-    fn strip(&self, panel: &Panel, ticks: &Ticks, across: &Rect) -> Above {
+    /// Returns the text above a panel: the common part of the tick labels, the panel's name, and
+    /// the labels of marker lines.
+    fn strip(&self, panel: &Panel, ticks: &Ticks, across: &Rect) -> Heading {
         let common = ticks.common.as_deref().map(|common| {
             let label = Label::parse(common);
             label.width(self.font, TICK_SIZE)
@@ -256,7 +248,7 @@ impl Sketch<'_> {
         }
         let (guides, rows) = guides::place(panel, &self.x, across, self.font, &reserved);
         let space = if rows > 0 { 10.0 } else { 6.0 };
-        Above {
+        Heading {
             guides,
             name,
             indent,
@@ -276,10 +268,10 @@ impl Sketch<'_> {
 }
 
 impl XAxis {
-    /// Height of ticks, tick labels and label below the last panel.
+    /// Returns the height of ticks, tick labels and axis label below the last panel.
     pub(crate) fn height(&self) -> f64 {
         let common = if self.common_below { TICK_LINE } else { 0.0 };
-        // What is common to the tick labels stands in the label's first line.
+        // The label's first line holds what is common to the tick labels.
         let lines = self
             .label
             .len()
@@ -289,13 +281,14 @@ impl XAxis {
     }
 }
 
-/// The most ticks along `length` px whose labels do not touch.
-fn fitting(scale: &Scale, length: f64, font: &Font) -> Ticks {
+/// Returns as many ticks as fit along `length` px without touching labels, and the label of the
+/// axis.
+fn fitting(axis: &Axis, scale: &Scale, length: f64, font: &Font) -> (Ticks, String) {
     let mut most = most(length, 60.0);
     loop {
-        let candidate = ticks(scale, most);
+        let (candidate, label) = labelled(axis, scale, most);
         if most <= 2 || apart(&candidate, scale, length, font) {
-            return candidate;
+            return (candidate, label);
         }
         most -= 1;
     }

@@ -8,8 +8,8 @@ use crate::ticks::rounded_outwards;
 const MARGIN: f64 = 0.05;
 
 impl Scale {
-    /// The scale of `axis` that shows `low` to `high`, or what the axis asks
-    /// for. `margin` is relative to the span.
+    /// Creates the scale of `axis` that shows the range from `low` to `high`, or the range that was
+    /// set for the axis. `margin` is relative to the span.
     fn showing(axis: &Axis, (low, high): (f64, f64), margin: f64) -> Result<Self, ChartError> {
         let given = axis.range.is_some();
         let (low, high) = axis.range.unwrap_or((low, high));
@@ -45,14 +45,15 @@ impl Scale {
 }
 
 impl Chart {
-    /// Shows exactly `low` to `high` of the x axis; what lies outside is cut off. Each y axis
-    /// spans the samples in view, unless its range is given.
+    /// Shows exactly the range from `low` to `high` of the x axis; what lies outside is cut off.
+    /// Each y axis spans the samples in view, unless its range is given.
     pub fn x_range(mut self, low: f64, high: f64) -> Self {
         self.x = self.x.range(low, high);
         self
     }
 
-    /// Least and largest x of the samples that can be drawn; none without such a sample.
+    /// Returns the least and the largest x of the samples that can be drawn; `None` without such a
+    /// sample.
     pub fn x_extent(&self) -> Option<(f64, f64)> {
         let mut extent = Extent::default();
         for panel in &self.panels {
@@ -74,9 +75,9 @@ fn value(log: bool, coordinate: f64) -> f64 {
     }
 }
 
-/// How far an axis reaches beyond the data. Data that are constant, as far as
-/// ticks could tell, stand in the middle of an axis of a tenth of their
-/// magnitude, of -1 to 1, or of one decade.
+/// Returns the distance by which an axis extends beyond the data. If the data are constant (to the
+/// resolution of ticks), they lie in the middle of an axis whose length is a tenth of their
+/// magnitude, from -1 to 1, or one decade.
 fn padding(log: bool, from: f64, to: f64, margin: f64) -> f64 {
     let magnitude = from.abs().max(to.abs());
     if to - from > RESOLVED * magnitude {
@@ -90,7 +91,7 @@ fn padding(log: bool, from: f64, to: f64, margin: f64) -> f64 {
     }
 }
 
-/// The scale of the x axis and those of the panels' y axes.
+/// Returns the scale of the x axis and the scales of all y axes.
 pub(crate) fn scales(chart: &Chart) -> Result<(Scale, Vec<Scale>), ChartError> {
     if chart.panels.is_empty() {
         return Err(ChartError::Empty { panel: None });
@@ -116,7 +117,7 @@ pub(crate) fn scales(chart: &Chart) -> Result<(Scale, Vec<Scale>), ChartError> {
     Ok((x, y.collect::<Result<_, _>>()?))
 }
 
-/// The scale of colours; none without shaded series.
+/// Returns the scale of colours; `None` without a shaded series.
 pub(crate) fn color_scale(chart: &Chart) -> Result<Option<Scale>, ChartError> {
     let axis = chart.colors.clone().unwrap_or_else(|| Axis::linear(""));
     let series = chart.panels.iter().flat_map(|panel| &panel.series);
@@ -132,7 +133,8 @@ pub(crate) fn color_scale(chart: &Chart) -> Result<Option<Scale>, ChartError> {
     Scale::showing(&axis, extent.ends(), 0.0).map(Some)
 }
 
-/// The y axis spans the samples in view; all of them where none is in view.
+/// Returns the scale of a panel's y axis, which spans the samples in view, or all samples if none
+/// is in view.
 fn y_scale(chart: &Chart, panel: &Panel, x: &Scale) -> Result<Scale, ChartError> {
     let mut extents = [Extent::default(), Extent::default()];
     for series in &panel.series {
@@ -164,7 +166,8 @@ fn check(chart: &Chart, panel: &Panel, index: usize) -> Result<(), ChartError> {
         return Err(ChartError::Empty { panel: Some(index) });
     }
     for series in &panel.series {
-        let others = [Some(&series.y), series.low.as_ref(), series.shades.as_ref()];
+        let (low, shades) = (series.low.as_ref(), series.shades.as_ref());
+        let others = [Some(&series.y), low, shades, series.errors.as_ref()];
         for y in others.into_iter().flatten() {
             if series.x.len() != y.len() {
                 return Err(ChartError::LengthMismatch {
@@ -198,12 +201,16 @@ fn check(chart: &Chart, panel: &Panel, index: usize) -> Result<(), ChartError> {
     Ok(())
 }
 
-/// The samples that the axes can show, both edges of a band.
+/// Returns the samples that the axes can show, with both edges of a band and both ends of error
+/// bars.
 fn samples(series: &Series, x_log: bool, y_log: bool) -> impl Iterator<Item = (f64, f64)> {
     let low = series.low.iter().flatten();
     let high = series.x.iter().zip(&series.y);
     let pairs = high.chain(series.x.iter().zip(low));
-    let pairs = pairs.map(|(x, y)| (*x, *y));
+    let ends = series.errors.iter().flatten();
+    let ends = ends.zip(series.x.iter().zip(&series.y));
+    let ends = ends.flat_map(|(error, (x, y))| [(*x, y - error), (*x, y + error)]);
+    let pairs = pairs.map(|(x, y)| (*x, *y)).chain(ends);
     pairs.filter(move |(x, y)| drawable(x_log, *x) && drawable(y_log, *y))
 }
 
@@ -221,7 +228,7 @@ impl Extent {
         self.0.is_some()
     }
 
-    /// The ends; not numbers, which no axis accepts, where there is no value.
+    /// Returns the ends; NaN, which no axis accepts, if there was no value.
     fn ends(&self) -> (f64, f64) {
         self.0.unwrap_or((f64::NAN, f64::NAN))
     }

@@ -3,16 +3,16 @@
 use crate::description::Panel;
 use crate::scale::{coordinate, drawable};
 
-/// Distinct coordinates of all cells of a panel, ascending: values, or their
-/// logarithms to base 10.
+/// Distinct coordinates (values, or their logarithms to base 10) of all cells of a panel,
+/// ascending.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Grid {
     x: Vec<f64>,
     y: Vec<f64>,
 }
 
-/// Part of the span of a grid's coordinates within which two are one: samples
-/// of one column may differ by rounding.
+/// Fraction of the span of a grid's coordinates below which two of them count as equal: samples of
+/// one column may differ by rounding.
 const EQUAL: f64 = 1e-9;
 
 impl Grid {
@@ -26,17 +26,17 @@ impl Grid {
         }
     }
 
-    /// Edges of the cell about a coordinate of x.
+    /// Returns the left and right edge of the cell about an x coordinate.
     pub(crate) fn across(&self, at: f64) -> (f64, f64) {
         edges(&self.x, at)
     }
 
-    /// Edges of the cell about a coordinate of y.
+    /// Returns the lower and upper edge of the cell about a y coordinate.
     pub(crate) fn up(&self, at: f64) -> (f64, f64) {
         edges(&self.y, at)
     }
 
-    /// Outermost edges of all columns and of all rows; none without cells.
+    /// Returns the outermost edges of all columns and of all rows; `None` without cells.
     pub(crate) fn extent(&self) -> Option<[(f64, f64); 2]> {
         let ends = |all: &[f64]| {
             let (first, last) = (*all.first()?, *all.last()?);
@@ -55,8 +55,9 @@ fn distinct<'a>(values: impl Iterator<Item = &'a f64>, log: bool) -> Vec<f64> {
     all
 }
 
-/// Half way to the neighbours of the nearest of `all`; as far outwards as inwards
-/// where there is none on one side, one half where there is none at all.
+/// Returns the edges of the cell about `at`, half way to its neighbours in `all`. If a neighbour is
+/// missing on one side, the cell extends as far there as on the other side; a single cell extends
+/// by one half.
 fn edges(all: &[f64], at: f64) -> (f64, f64) {
     let nearest = (0..all.len()).min_by(|&a, &b| {
         let distance = |index: usize| (all[index] - at).abs();

@@ -1,6 +1,6 @@
 use crate::drawing::Point;
 
-/// An area of the canvas in px.
+/// A rectangle of the canvas, in px.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Rect {
     pub(crate) left: f64,
@@ -35,7 +35,7 @@ impl Rect {
     }
 }
 
-/// The parts of a line inside `area`, as lines of their own.
+/// Returns the parts of a line inside `area`, as separate lines.
 pub(crate) fn line(points: &[Point], area: &Rect) -> Vec<Vec<Point>> {
     if let [only] = points {
         return match area.contains(*only) {
@@ -57,8 +57,8 @@ pub(crate) fn line(points: &[Point], area: &Rect) -> Vec<Vec<Point>> {
     parts
 }
 
-/// The part of a segment inside `area`, by the method of Liang and Barsky
-/// (ACM Trans. Graphics 3 (1984) 1). The ends are exact where they lie inside.
+/// Returns the part of a segment inside `area`, by the method of Liang and Barsky (ACM Trans.
+/// Graphics 3 (1984) 1). Ends that lie inside are returned unchanged.
 fn segment(from: Point, to: Point, area: &Rect) -> Option<(Point, Point)> {
     // Nearer than this a point moves by less than a tenth of a pixel where the
     // segment crosses the edge; farther ones could overflow.

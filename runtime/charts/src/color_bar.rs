@@ -1,8 +1,8 @@
-//! The bar that explains the colours of a map.
+//! The colour bar that explains the colours of a map.
 
 use crate::axis::color_scale;
 use crate::clip::Rect;
-use crate::description::Chart;
+use crate::description::{Axis, Chart};
 use crate::drawing::{Anchor, Mark, Text};
 use crate::error::ChartError;
 use crate::font::Font;
@@ -10,13 +10,13 @@ use crate::label::{Label, widest};
 use crate::scale::Scale;
 use crate::sizes::{LABEL_GAP, LABEL_LINE, LABEL_SIZE, TICK, TICK_GAP, TICK_SIZE};
 use crate::style::{Color, Fill, ramp};
-use crate::ticks::{Ticks, most, tick_labels, ticks};
+use crate::ticks::{Ticks, labelled, most, tick_labels};
 
-/// Width of the bar, and space between the panels and it, px.
+/// Width of the bar, and gap between the panels and the bar, in px.
 const WIDTH: f64 = 16.0;
 const GAP: f64 = 14.0;
 
-/// Colours of a bar: as many as can be told from their neighbours.
+/// Number of colours of a bar, chosen so that neighbours differ visibly.
 pub(crate) const COLORS: usize = 64;
 
 const FRAME: Color = Color::rgb(60, 60, 60);
@@ -31,7 +31,7 @@ pub(crate) struct ColorBar {
 }
 
 impl ColorBar {
-    /// The bar of panels that are `height` high together; none for a chart without
+    /// Plans the bar for panels with a total height of `height`; `None` for a chart without a
     /// shaded series.
     pub(crate) fn plan(
         chart: &Chart,
@@ -41,25 +41,26 @@ impl ColorBar {
         let Some(scale) = color_scale(chart)? else {
             return Ok(None);
         };
-        let ticks = ticks(&scale, most(height, 42.0));
-        let label = chart.colors.as_ref().map_or("", |axis| &axis.label);
+        let nameless = Axis::linear("");
+        let axis = chart.colors.as_ref().unwrap_or(&nameless);
+        let (ticks, label) = labelled(axis, &scale, most(height, 42.0));
         Ok(Some(Self {
-            label: Label::parse(label).wrap(font, LABEL_SIZE, height),
+            label: Label::parse(&label).wrap(font, LABEL_SIZE, height),
             widest: widest(&tick_labels(&ticks), font, TICK_SIZE),
             scale,
             ticks,
         }))
     }
 
-    /// Width that it takes from the panels.
+    /// Returns the width that the bar takes from the panels.
     pub(crate) fn width(&self) -> f64 {
         let lines = self.label.len() as f64;
         let gap = if lines > 0.0 { LABEL_GAP } else { 0.0 };
         GAP + WIDTH + TICK + TICK_GAP + self.widest + gap + lines * LABEL_LINE
     }
 
-    /// Colour of a value, the nearest one for those beyond the ends; none for what the
-    /// scale does not have.
+    /// Returns the index of the colour of a value. Values beyond the ends have the colour of the
+    /// nearest end; `None` if the value cannot be shown on the scale.
     pub(crate) fn class(&self, value: f64) -> Option<usize> {
         // Zero and less are below all that a logarithmic scale has.
         let beyond = if value <= 0.0 { 0.0 } else { f64::NAN };
@@ -68,7 +69,7 @@ impl ColorBar {
         (!place.is_nan()).then_some(class.min(COLORS - 1))
     }
 
-    /// The bar beside panels that end at `frame`'s right edge, as high as it.
+    /// Draws the bar to the right of `frame`, which encloses the panels, and as high as it.
     pub(crate) fn draw(&self, frame: &Rect, marks: &mut Vec<Mark>) {
         let left = frame.right + GAP;
         let bar = Rect {
@@ -81,7 +82,7 @@ impl ColorBar {
         self.draw_texts(&bar, marks);
     }
 
-    /// The frame of the bar, and its ticks.
+    /// Returns the frame of the bar with its ticks.
     fn frame_and_ticks(&self, bar: &Rect) -> Mark {
         let mut lines = vec![vec![
             (bar.left, bar.top),
@@ -104,7 +105,7 @@ impl ColorBar {
         }
     }
 
-    /// The labels of the ticks, what they have in common, and the label of the bar.
+    /// Adds the labels of the ticks, their common part, and the label of the bar.
     fn draw_texts(&self, bar: &Rect, marks: &mut Vec<Mark>) {
         let text = |label: &Label, at, size, upwards| {
             Mark::Text(Text {
@@ -136,7 +137,7 @@ impl ColorBar {
     }
 }
 
-/// Height of a place between the bottom of a bar, 0, and its top, 1.
+/// Returns the height on the canvas of a position between the bottom (0) and the top (1) of a bar.
 fn height_at(bar: &Rect, place: f64) -> f64 {
     bar.bottom - place * bar.height()
 }

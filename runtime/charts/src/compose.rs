@@ -1,10 +1,12 @@
 use crate::areas;
 use crate::arrange::{PanelPlan, Plan};
+use crate::beyond;
 use crate::cells::Grid;
 use crate::clip::{self, Rect};
 use crate::decimate;
 use crate::description::{Chart, Panel, Series};
 use crate::drawing::{Anchor, Drawing, Mark, Point, Text};
+use crate::error_bars;
 use crate::font::Font;
 use crate::guides;
 use crate::label::Label;
@@ -19,10 +21,9 @@ use crate::ticks::Ticks;
 const GRID: Color = Color::rgb(228, 228, 228);
 const GUIDE: Color = Color::rgb(90, 90, 90);
 const FRAME: Color = Color::rgb(60, 60, 60);
-const LINE_WIDTH: f64 = 1.8;
-const RADIUS: f64 = 4.0;
+pub(crate) const LINE_WIDTH: f64 = 1.8;
 
-/// The chart as marks, from back to front.
+/// Returns the chart as marks, from back to front.
 pub(crate) fn draw(chart: &Chart, plan: &Plan) -> Drawing {
     let mut marks = Vec::new();
     for (panel, place) in chart.panels.iter().zip(&plan.panels) {
@@ -40,8 +41,10 @@ pub(crate) fn draw(chart: &Chart, plan: &Plan) -> Drawing {
         draw_guides(panel, place, &mut marks);
         for (series, style) in all() {
             areas::band(series, *style, plan, place, &mut marks);
+            error_bars::draw(series, *style, plan, place, &mut marks);
             draw_series(series, *style, plan, place, &mut marks);
         }
+        beyond::draw(panel, plan, place, &mut marks);
         draw_axes(plan, place, &mut marks);
         draw_y_text(place, &mut marks);
         draw_name(place, &mut marks);
@@ -102,7 +105,7 @@ fn draw_grid(plan: &Plan, place: &PanelPlan, marks: &mut Vec<Mark>) {
     marks.push(strokes(verticals.chain(horizontals).collect(), GRID, 1.0));
 }
 
-/// Marker lines with their labels, and the line at zero.
+/// Adds the marker lines with their labels, and the line at zero.
 fn draw_guides(panel: &Panel, place: &PanelPlan, marks: &mut Vec<Mark>) {
     let frame = &place.frame;
     let zero = place.scale.fraction(0.0).filter(|_| panel.zero_line);
@@ -170,13 +173,13 @@ fn draw_series(
         marks.push(Mark::Symbols {
             symbol,
             at: decimate::symbols(inside),
-            radius: RADIUS,
+            radius: style.radius,
             color: style.color,
         });
     }
 }
 
-/// Frame and ticks, over the data so that the edges are clean.
+/// Adds frame and ticks. They are drawn over the data so that the edges are clean.
 fn draw_axes(plan: &Plan, place: &PanelPlan, marks: &mut Vec<Mark>) {
     let frame = &place.frame;
     let mut lines = vec![
@@ -224,7 +227,7 @@ fn draw_y_text(place: &PanelPlan, marks: &mut Vec<Mark>) {
     }
 }
 
-/// The name of a panel, above its left end.
+/// Adds the name of a panel, above its left end.
 fn draw_name(place: &PanelPlan, marks: &mut Vec<Mark>) {
     let (strip, frame) = (&place.strip, &place.frame);
     for (row, line) in strip.name.iter().rev().enumerate() {
@@ -271,7 +274,7 @@ fn draw_title(plan: &Plan, marks: &mut Vec<Mark>) {
     }
 }
 
-/// The bar of colours at the right of all panels, as high as they are.
+/// Adds the colour bar to the right of all panels, as high as they are.
 fn draw_colors(plan: &Plan, marks: &mut Vec<Mark>) {
     let frames = || plan.panels.iter().map(|place| &place.frame);
     if let Some(colors) = &plan.colors {
@@ -312,13 +315,15 @@ fn draw_legend(plan: &Plan, marks: &mut Vec<Mark>) {
     }
 }
 
-/// A sample of the series and its label, the top left corner at `(x, y)`.
+/// Adds an entry of the legend, the sample of the series and its label, with its top left corner at
+/// `(x, y)`.
 fn draw_entry(entry: &Entry, (x, y): Point, marks: &mut Vec<Mark>) {
     let middle = y + 0.5 * legend::LINE;
     let Style {
         color,
         dash,
         symbol,
+        radius,
         fill,
     } = entry.style;
     if let Some(fill) = fill {
@@ -336,7 +341,7 @@ fn draw_entry(entry: &Entry, (x, y): Point, marks: &mut Vec<Mark>) {
         marks.push(Mark::Symbols {
             symbol,
             at: vec![(x + 0.5 * legend::SAMPLE, middle)],
-            radius: RADIUS,
+            radius,
             color,
         });
     }

@@ -1,11 +1,11 @@
-/// Returns true if `digits` times ten to the power `exponent`, with its leading digit
-/// in the decade `leading`, reads better written out than with a power of ten.
+/// Returns true if `digits` × 10^`exponent`, whose leading digit is in the decade `leading`, is
+/// easier to read written out than with a power of ten.
 pub(crate) const fn reads_plain(leading: i32) -> bool {
     -3 <= leading && leading <= 4
 }
 
-/// The decade of the leading digit of `digits` x 10^`exponent`; that of the
-/// unit for zero.
+/// Returns the decade of the leading digit of `digits` × 10^`exponent`; for zero, the decade of the
+/// unit.
 pub(crate) fn leading_decade(digits: i64, exponent: i32) -> i32 {
     match digits.unsigned_abs().checked_ilog10() {
         Some(log) => exponent + log as i32,
@@ -13,8 +13,8 @@ pub(crate) fn leading_decade(digits: i64, exponent: i32) -> i32 {
     }
 }
 
-/// `digits` x 10^`exponent` written out, exactly, with a proper minus sign.
-/// Zero is `0`, whatever its exponent.
+/// Writes out `digits` × 10^`exponent` exactly, with a proper minus sign. Zero is `0` for every
+/// exponent.
 pub(crate) fn plain(digits: i64, exponent: i32) -> String {
     if digits == 0 {
         return "0".into();
@@ -31,13 +31,13 @@ pub(crate) fn plain(digits: i64, exponent: i32) -> String {
     format!("{sign}{whole}.{fraction}")
 }
 
-/// The power of ten as label markup.
+/// Returns the power of ten as label markup.
 pub(crate) fn power(exponent: i32) -> String {
     format!("10^{{{}}}", plain(i64::from(exponent), 0))
 }
 
-/// `digits` x 10^`exponent` as label markup: written out where it reads well,
-/// with a power of ten otherwise.
+/// Returns `digits` × 10^`exponent` as label markup: written out if that is easy to read, otherwise
+/// with a power of ten.
 pub(crate) fn number(mut digits: i64, mut exponent: i32) -> String {
     while digits != 0 && digits % 10 == 0 {
         digits /= 10;

@@ -2,10 +2,10 @@ use std::collections::BTreeSet;
 
 use crate::drawing::Point;
 
-/// Reduces a line to what can be seen of it: of consecutive points in one
-/// column of pixels the first, the lowest, the highest and the last stay, in
-/// their order. `None` separates lines. Linear in the number of points; works
-/// for any order of x, but thins out only what stays in its column.
+/// Reduces a line to its visible points: of consecutive points in one column of pixels, the first,
+/// the lowest, the highest and the last are kept, in their order. `None` separates lines. Takes
+/// time proportional to the number of points. Points may be in any order of x, but only consecutive
+/// points in the same column are thinned out.
 pub(crate) fn lines(points: impl Iterator<Item = Option<Point>>) -> Vec<Vec<Point>> {
     let mut lines = Vec::new();
     let mut line = Vec::new();
@@ -33,7 +33,7 @@ pub(crate) fn lines(points: impl Iterator<Item = Option<Point>>) -> Vec<Vec<Poin
     lines
 }
 
-/// Consecutive points in one column of pixels, each with its rank.
+/// Consecutive points in one column of pixels, each with its index.
 struct Column {
     first: Point,
     low: (usize, Point),
@@ -79,7 +79,7 @@ fn flush(column: &mut Option<Column>, line: &mut Vec<Point>) {
     }
 }
 
-/// Reduces symbols to one for each pixel, the first.
+/// Reduces symbols to the first one in each pixel.
 pub(crate) fn symbols(points: impl Iterator<Item = Point>) -> Vec<Point> {
     let mut taken = BTreeSet::new();
     points

@@ -12,24 +12,26 @@ pub struct Chart {
     pub(crate) width: f64,
     pub(crate) height: f64,
     pub(crate) scale: f64,
-    /// Size of a px in a figure of a fixed width, mm.
+    /// Size of a px in mm, in a figure of fixed width.
     pub(crate) unit: Option<f64>,
 }
 
-/// Size of a px in a figure, mm: tick labels have 7 points there.
+/// Size of a px in a figure, in mm; it makes tick labels 7 points high.
 const FIGURE_UNIT: f64 = 7.0 / 72.0 * 25.4 / TICK_SIZE;
-/// Pixels of a figure's PNG in a millimetre: 600 in an inch.
+/// Pixels per mm of a figure's PNG: 600 per inch.
 const FIGURE_PIXELS: f64 = 600.0 / 25.4;
 
-/// An axis: its label, its kind and, where given, its range.
+/// An axis: its label, its kind and its range, if one is given.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Axis {
     pub(crate) label: String,
     pub(crate) log: bool,
     pub(crate) range: Option<(f64, f64)>,
+    /// True if ticks are only at whole numbers.
+    pub(crate) whole: bool,
 }
 
-/// One set of axes of a chart.
+/// One y axis with its series.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Panel {
     pub(crate) name: Option<String>,
@@ -45,27 +47,34 @@ pub struct Series {
     pub(crate) label: String,
     pub(crate) x: Vec<f64>,
     pub(crate) y: Vec<f64>,
-    /// Lower edge of a band, whose upper edge is `y`.
+    /// Lower edge of a band; its upper edge is `y`.
     pub(crate) low: Option<Vec<f64>>,
     pub(crate) cells: bool,
-    /// Values of cells whose colour tells them.
+    /// Values of cells, which are shown by colour.
     pub(crate) shades: Option<Vec<f64>>,
-    /// Place among the classes of a heatmap.
+    /// Index among the classes of a heatmap.
     pub(crate) class: usize,
     pub(crate) joined: bool,
     pub(crate) symbols: bool,
+    /// Half the length of the error bar of each sample.
+    pub(crate) errors: Option<Vec<f64>>,
+    pub(crate) small: bool,
+    pub(crate) marks_beyond: bool,
     pub(crate) color: Option<Color>,
     pub(crate) dash: Option<Dash>,
     pub(crate) symbol: Option<Symbol>,
 }
 
 impl Axis {
-    /// A linear axis. The label names quantity and unit: `t (s)`.
+    /// Creates a linear axis. The label names quantity and unit: `t (s)`. If the numbers need a
+    /// power of ten and the unit is a single SI unit, the unit gets a prefix instead: `energy
+    /// (nJ)`.
     pub fn linear(label: impl Into<String>) -> Self {
         Self {
             label: label.into(),
             log: false,
             range: None,
+            whole: false,
         }
     }
 
@@ -77,8 +86,14 @@ impl Axis {
         }
     }
 
-    /// Shows exactly `low` to `high`; what lies outside is cut off. Without a
-    /// range the axis spans the samples in view, with a small margin.
+    /// Restricts the ticks of a linear axis to whole numbers, for counts or indices.
+    pub fn whole(mut self) -> Self {
+        self.whole = true;
+        self
+    }
+
+    /// Shows exactly the range from `low` to `high`; what lies outside is cut off. Without this,
+    /// the axis spans the samples in view, with a small margin.
     pub fn range(mut self, low: f64, high: f64) -> Self {
         self.range = Some((low, high));
         self
@@ -86,8 +101,8 @@ impl Axis {
 }
 
 impl Series {
-    /// Samples `(x[i], y[i])`, joined by a line in their order. Series of equal
-    /// label share one style and one legend entry; an empty label has none.
+    /// Creates a line through the samples `(x[i], y[i])` in their order. Series with equal labels
+    /// share one style and one legend entry; a series with an empty label has no entry.
     pub fn line(label: impl Into<String>, x: &[f64], y: &[f64]) -> Self {
         Self {
             label: label.into(),
@@ -99,13 +114,16 @@ impl Series {
             class: 0,
             joined: true,
             symbols: false,
+            errors: None,
+            small: false,
+            marks_beyond: false,
             color: None,
             dash: None,
             symbol: None,
         }
     }
 
-    /// Samples `(x[i], y[i])`, each a symbol, not joined.
+    /// Creates separate symbols at the samples `(x[i], y[i])`.
     pub fn points(label: impl Into<String>, x: &[f64], y: &[f64]) -> Self {
         Self {
             joined: false,
@@ -114,8 +132,8 @@ impl Series {
         }
     }
 
-    /// The area between `(x[i], low[i])` and `(x[i], high[i])`: an interval of
-    /// confidence, or errors. What is added after it is drawn over it.
+    /// Creates the area between the samples `(x[i], low[i])` and `(x[i], high[i])`, for example a
+    /// confidence interval. Series added later are drawn over it.
     pub fn band(label: impl Into<String>, x: &[f64], low: &[f64], high: &[f64]) -> Self {
         Self {
             joined: false,
@@ -124,7 +142,7 @@ impl Series {
         }
     }
 
-    /// Samples `(x[i], y[i])`, each of which fills its cell: half way to its
+    /// Creates filled cells at the samples `(x[i], y[i])`. Each cell extends half way to its
     /// neighbours among all cells of the panel.
     pub fn cells(label: impl Into<String>, x: &[f64], y: &[f64]) -> Self {
         Self {
@@ -134,8 +152,8 @@ impl Series {
         }
     }
 
-    /// Cells whose colour tells their value, by the chart's [`colors`](Chart::colors):
-    /// dark where it is low. A value that is not a number leaves its cell empty.
+    /// Creates cells whose colour shows their value on the colour axis of the chart
+    /// ([`colors`](Chart::colors)); low values are dark. The cell of a NaN stays empty.
     pub fn shaded(x: &[f64], y: &[f64], values: &[f64]) -> Self {
         Self {
             shades: Some(values.to_vec()),
@@ -149,19 +167,38 @@ impl Series {
         self
     }
 
-    /// Draws in this colour instead of the next free one.
+    /// Draws in this colour instead of the next unused one.
     pub fn color(mut self, color: Color) -> Self {
         self.color = Some(color);
         self
     }
 
-    /// Draws the line with this dash instead of the next free one.
+    /// Draws the line with this dash pattern instead of the next unused one.
     pub fn dash(mut self, dash: Dash) -> Self {
         self.dash = Some(dash);
         self
     }
 
-    /// Draws each sample as this symbol.
+    /// Draws an error bar from `y[i] - errors[i]` to `y[i] + errors[i]` through each sample; no bar
+    /// if the error is NaN.
+    pub fn errors(mut self, errors: &[f64]) -> Self {
+        self.errors = Some(errors.to_vec());
+        self
+    }
+
+    /// Draws symbols as small dots, for large numbers of measured points.
+    pub fn small(mut self) -> Self {
+        self.small = true;
+        self
+    }
+
+    /// Marks on the panel's edge the x positions of samples above or below the range of its y axis.
+    pub fn mark_beyond(mut self) -> Self {
+        self.marks_beyond = true;
+        self
+    }
+
+    /// Draws each sample with this symbol.
     pub fn symbol(mut self, symbol: Symbol) -> Self {
         self.symbols = true;
         self.symbol = Some(symbol);
@@ -181,7 +218,7 @@ impl Panel {
         }
     }
 
-    /// Names the panel, or says what holds for it alone, above its left end.
+    /// Sets the name of the panel, or a remark on it, which is drawn above its left end.
     pub fn name(mut self, name: impl Into<String>) -> Self {
         self.name = Some(name.into());
         self
@@ -208,10 +245,9 @@ impl Panel {
         self.series(Series::band(label, x, low, high))
     }
 
-    /// Adds a heatmap: [`Series::cells`] at `(x[i], y[i])` whose colour tells
-    /// between which of the ascending `levels` their value lies, dark where it is
-    /// low. Each class is a series of its own, named in the legend; a value that
-    /// is not a number leaves its cell empty.
+    /// Adds a heatmap: cells ([`Series::cells`]) at `(x[i], y[i])` whose colour shows between which
+    /// of the ascending `levels` their value lies; low values are dark. Each class is a separate
+    /// series with an entry in the legend. The cell of a NaN stays empty.
     pub fn heatmap(self, x: &[f64], y: &[f64], values: &[f64], levels: &[f64]) -> Self {
         let classes = levels.len() + 1;
         let class = |value: f64| levels.partition_point(|level| *level <= value);
@@ -243,17 +279,16 @@ impl Panel {
         })
     }
 
-    /// Adds a vertical marker line at `x`, its label above the panel. The x
-    /// axis extends to it, unless its range is given: then a line outside the
-    /// range is left out.
+    /// Adds a vertical marker line at `x`, with its label above the panel. The x axis is extended
+    /// to the line. If the range of the axis is given, a line outside it is left out.
     pub fn vertical(mut self, x: f64, label: impl Into<String>) -> Self {
         self.verticals.push((x, label.into()));
         self
     }
 
-    /// Adds a horizontal line at y = 0. The y axis extends to it, unless its
-    /// range is given: then a line outside the range is left out. On a
-    /// logarithmic axis it is [`ChartError::MarkerLine`](crate::ChartError::MarkerLine).
+    /// Adds a horizontal line at y = 0. The y axis is extended to the line. If the range of the
+    /// axis is given, a line outside it is left out. On a logarithmic axis the line causes the
+    /// error [`ChartError::MarkerLine`](crate::ChartError::MarkerLine).
     pub fn zero_line(mut self) -> Self {
         self.zero_line = true;
         self
@@ -261,7 +296,7 @@ impl Panel {
 }
 
 impl Chart {
-    /// A chart of 900 x 560 px without panels, whose PNG has 2 pixels per px.
+    /// Creates a chart of 900 x 560 px without panels. Its PNG has 2 pixels per px.
     pub fn new(title: impl Into<String>, x: Axis) -> Self {
         Self {
             title: title.into(),
@@ -276,43 +311,43 @@ impl Chart {
         }
     }
 
-    /// Arranges the panels in rows of `columns`, over one x axis each; the legend
-    /// then stands below all of them.
+    /// Arranges the panels in rows of `columns` panels. Each column has one x axis, and the legend
+    /// is below all of them.
     pub fn columns(mut self, columns: usize) -> Self {
         self.columns = columns.max(1);
         self
     }
 
-    /// Values of [`Series::shaded`] in all panels by this axis, which stands at the right as
-    /// a bar of colours; values beyond its range have the colour of its end. Without it,
-    /// a linear one spans the values.
+    /// Sets the axis that assigns colours to the values of [`Series::shaded`] in all panels. It is
+    /// drawn as a colour bar on the right; values beyond its range have the colour of its end. By
+    /// default, a linear axis spans the values.
     pub fn colors(mut self, axis: Axis) -> Self {
         self.colors = Some(axis);
         self
     }
 
-    /// Adds a panel after those already there.
+    /// Adds a panel after the existing ones.
     pub fn panel(mut self, panel: Panel) -> Self {
         self.panels.push(panel);
         self
     }
 
-    /// Width and least height in px, at least 320 x 200.
+    /// Sets the width and the least height in px, at least 320 x 200.
     pub fn size(mut self, width: f64, height: f64) -> Self {
         self.width = width;
         self.height = height;
         self
     }
 
-    /// Pixels of the PNG per px.
+    /// Sets the number of pixels of the PNG per px.
     pub fn scale(mut self, scale: f64) -> Self {
         self.scale = scale;
         self
     }
 
-    /// Makes a figure of this width (mm, at least 66) whose type has a fixed size, 7 points at ticks
-    /// and 8 at axes. Its height keeps the proportion, unless panels would be too low; its
-    /// PNG has 600 pixels in an inch.
+    /// Turns the chart into a figure of this width (mm, at least 66) whose text has a fixed size: 7
+    /// points at ticks and 8 at axes. Its proportions are kept, unless panels would become too low;
+    /// its PNG has 600 pixels per inch.
     pub fn figure(mut self, width: f64) -> Self {
         let px = width / FIGURE_UNIT;
         self.height = (self.height * px / self.width).max(LEAST_SIZE.1);

@@ -4,10 +4,10 @@ use crate::style::{Color, Dash, Fill, Symbol};
 /// Longest side of a canvas in px, and of a PNG in pixels.
 pub(crate) const LARGEST_SIDE: f64 = 16384.0;
 
-/// A point of the canvas in px, y down.
+/// A point of the canvas in px; y points downwards.
 pub(crate) type Point = (f64, f64);
 
-/// The picture that both file formats draw, in this order, on white.
+/// Marks that all file formats draw in this order on a white background.
 #[derive(Debug)]
 pub(crate) struct Drawing {
     pub(crate) width: f64,
@@ -48,7 +48,7 @@ pub(crate) enum Anchor {
 }
 
 impl Anchor {
-    /// Part of the width that lies before the anchor.
+    /// Returns the fraction of the text's width that lies before the anchor.
     pub(crate) const fn before(self) -> f64 {
         match self {
             Self::Start => 0.0,
@@ -66,6 +66,6 @@ pub(crate) struct Text {
     pub(crate) at: Point,
     pub(crate) anchor: Anchor,
     pub(crate) size: f64,
-    /// Reads upwards instead of to the right.
+    /// True if the text reads upwards instead of to the right.
     pub(crate) upwards: bool,
 }

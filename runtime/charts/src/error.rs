@@ -2,16 +2,15 @@ use std::error::Error;
 use std::io;
 use std::path::PathBuf;
 
-/// Why a chart could not be drawn or written.
+/// Error of a chart that could not be drawn or written.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum ChartError {
-    /// The chart has no panel, or the panel of this index has no series; or the film has
-    /// no tree, no links or no pictures.
+    /// The chart has no panel, or the panel of this index has no series; or a film has no tree, no
+    /// links or no pictures.
     #[error("{}", empty(.panel))]
     Empty {
-        /// Index of the empty panel, counted from the top; `None` where the
-        /// chart has no panel at all.
+        /// Index of the empty panel, counted from the top; `None` if the chart has no panel at all.
         panel: Option<usize>,
     },
     /// A series has different numbers of x and y values.
@@ -24,8 +23,8 @@ pub enum ChartError {
         /// Number of y values.
         y: usize,
     },
-    /// No sample of a series can be drawn: there is none, or none is finite
-    /// (and positive, where an axis is logarithmic).
+    /// A series has no sample that can be drawn: all samples are missing, not finite, or not
+    /// positive on a logarithmic axis.
     #[error(
         "none of the {samples} samples of series `{series}` can be drawn: they must be \
          finite, and positive on a logarithmic axis"
@@ -33,13 +32,15 @@ pub enum ChartError {
     NothingToDraw {
         /// Label of the series.
         series: String,
-        /// Number of samples that the series has.
+        /// Number of samples of the series.
         samples: usize,
     },
     /// An axis cannot span this range: a given range is empty, not finite or
     /// not positive on a logarithmic axis, or the span of a linear axis lies
-    /// outside 1e-290 to 1e290 or vanishes beside the magnitude of its ends.
-    #[error("axis `{axis}` cannot span {low:e} to {high:e}")]
+    /// outside 1e-290 to 1e290 or vanishes compared with the magnitude of its ends.
+    #[error(
+        "axis `{axis}` cannot span {low:e} to {high:e}: the ends must be finite and different, and positive on a logarithmic axis"
+    )]
     Range {
         /// Label of the axis.
         axis: String,
@@ -48,10 +49,12 @@ pub enum ChartError {
         /// Upper end.
         high: f64,
     },
-    /// A marker line cannot stand at this value of its axis.
-    #[error("marker line `{label}` cannot stand at {value:e}")]
+    /// A marker line has a value that its axis cannot show.
+    #[error(
+        "marker line `{label}` is at {value:e}: this must be finite, and positive on a logarithmic axis"
+    )]
     MarkerLine {
-        /// Label of the marker line, or of its axis where it has none.
+        /// Label of the marker line, or of its axis if the line has none.
         label: String,
         /// Value asked for.
         value: f64,
@@ -69,37 +72,40 @@ pub enum ChartError {
         /// Pixels of the PNG per px.
         scale: f64,
     },
-    /// Axis labels and legend leave no room for the panels.
+    /// The labels of the axes and the legend leave too little width for the panels.
     #[error(
         "labels leave {left:.0} of {width:.0} px for the panels; shorten them or widen the chart"
     )]
     NoRoom {
         /// Width in px.
         width: f64,
-        /// Width in px that would be left for a panel.
+        /// Width in px that is left for a panel.
         left: f64,
     },
-    /// A link of a film does not hang from a link before it, or not at a finite place.
-    #[error("link {link} of a film must hang from a link before it, at finite places")]
+    /// A link of a film does not hang from an earlier link, or its position is not finite.
+    #[error(
+        "link {link} of a film is invalid: its parent must come before it in the list, and its points must be finite"
+    )]
     Link {
         /// Index of the link.
         link: usize,
     },
-    /// A picture of a film has no finite angle for some link.
+    /// The number of angles in a picture of a film differs from the number of links, or an angle is
+    /// not finite.
     #[error(
-        "picture {picture} of a film has {found} angles: it needs a finite one for each of \
+        "picture {picture} of a film has {found} angles: it needs one finite angle for each of \
          {links} links"
     )]
     Picture {
         /// Number of the picture, from 0.
         picture: usize,
-        /// Number of angles that it has.
+        /// Number of angles in the picture.
         found: usize,
         /// Number of links.
         links: usize,
     },
     /// The embedded font cannot be read, which is a defect of this crate.
-    #[error("the embedded font cannot be read")]
+    #[error("the embedded font cannot be read: this is a bug of the program, please report it")]
     Font,
     /// The PNG encoder failed.
     #[error("cannot encode the PNG")]

@@ -4,14 +4,14 @@ use crate::error::ChartError;
 
 const DATA: &[u8] = include_bytes!("../assets/DejaVuSans-subset.ttf");
 
-/// The embedded font: metrics for the layout, outlines for the PNG, and the whole of it for the PDF.
+/// The embedded font: its metrics for the layout, its outlines for PNG, and its file for PDF.
 pub(crate) struct Font {
     face: Face<'static>,
     units_per_em: f64,
 }
 
 impl Font {
-    /// Height of capitals above the baseline, in em.
+    /// Height of capital letters above the baseline, in em.
     pub(crate) const CAP: f64 = 0.73;
 
     pub(crate) fn embedded() -> Result<Self, ChartError> {
@@ -20,15 +20,15 @@ impl Font {
         Ok(Self { face, units_per_em })
     }
 
-    /// Width in em by which a character moves the pen.
+    /// Returns the width of a character, in em.
     pub(crate) fn advance(&self, character: char) -> f64 {
         let units = self.face.glyph_hor_advance(self.glyph(character));
         f64::from(units.unwrap_or(0)) / self.units_per_em
     }
 
-    /// Outlines of `text`, the pen at `(x, y)` (px, y down).
+    /// Draws the outlines of `text` to `sink`, beginning with the pen at `(x, y)` (px, y down).
     pub(crate) fn outline(&self, text: &str, pen: (f64, f64), size: f64, sink: &mut impl Outline) {
-        for Placed { id, origin, .. } in self.place(text, pen, size) {
+        for PlacedGlyph { id, origin, .. } in self.place(text, pen, size) {
             let mut pen = Pen {
                 origin,
                 scale: size / self.units_per_em,
@@ -39,13 +39,14 @@ impl Font {
         }
     }
 
-    /// Glyphs of `text`, the pen at `(x, y)` (px, y down).
+    /// Returns the glyphs of `text` with their positions, beginning with the pen at `(x, y)` (px, y
+    /// down).
     pub(crate) fn place(
         &self,
         text: &str,
         (mut x, y): (f64, f64),
         size: f64,
-    ) -> impl Iterator<Item = Placed> {
+    ) -> impl Iterator<Item = PlacedGlyph> {
         let scale = size / self.units_per_em;
         let mut base: Option<(GlyphId, f64)> = None;
         text.chars().map(move |character| {
@@ -62,7 +63,7 @@ impl Font {
             }
             let advance = self.advance(character) * size;
             x += advance;
-            Placed {
+            PlacedGlyph {
                 id,
                 origin,
                 advance,
@@ -76,12 +77,12 @@ impl Font {
         DATA
     }
 
-    /// Index of the glyph of a character, 0 of one that is not there.
+    /// Returns the index of the glyph of a character; 0 if the font does not contain it.
     pub(crate) fn index(&self, character: char) -> u16 {
         self.glyph(character).0
     }
 
-    /// Widths in em of all glyphs, in their order.
+    /// Returns the widths in em of all glyphs, in their order.
     pub(crate) fn advances(&self) -> impl Iterator<Item = f64> {
         let all = 0..self.face.number_of_glyphs();
         all.map(|glyph| {
@@ -90,16 +91,16 @@ impl Font {
         })
     }
 
-    /// Left, lower, right and upper bounds of all glyphs, in em.
+    /// Returns the left, lower, right and upper bound of all glyphs, in em.
     pub(crate) fn bounds(&self) -> [f64; 4] {
         let all = self.face.global_bounding_box();
         [all.x_min, all.y_min, all.x_max, all.y_max]
             .map(|units| f64::from(units) / self.units_per_em)
     }
 
-    /// Shift, in font units and relative to the pen before the base, that
-    /// centres an accent over its base and lifts it clear of a tall one: the
-    /// dot of a velocity would else lie on the theta.
+    /// Returns the shift (font units, relative to the pen before the base) that centres an accent
+    /// over its base and lifts it above a tall one. Without it, the dot of a velocity would overlap
+    /// the theta.
     fn accent_shift(&self, base: GlyphId, accent: GlyphId) -> (f64, f64) {
         let boxes = self
             .face
@@ -120,13 +121,13 @@ impl Font {
 }
 
 /// A glyph of a text.
-pub(crate) struct Placed {
+pub(crate) struct PlacedGlyph {
     pub(crate) id: GlyphId,
-    /// Where the pen is for it, px, y down.
+    /// Position of the pen for the glyph, px, y down.
     pub(crate) origin: (f64, f64),
-    /// The way by which it moves the pen, px.
+    /// Distance by which the glyph moves the pen, in px.
     pub(crate) advance: f64,
-    /// Where the pen is after it.
+    /// Position of the pen after the glyph, in px.
     pub(crate) next: f64,
 }
 
@@ -134,7 +135,7 @@ fn is_combining(character: char) -> bool {
     ('\u{300}'..='\u{36f}').contains(&character)
 }
 
-/// A receiver of outlines, in px with y down.
+/// Receiver of glyph outlines, in px with y down.
 pub(crate) trait Outline {
     fn move_to(&mut self, x: f32, y: f32);
     fn line_to(&mut self, x: f32, y: f32);
@@ -143,7 +144,7 @@ pub(crate) trait Outline {
     fn close(&mut self);
 }
 
-/// Takes font units, y up, to px, y down.
+/// Converts font units with y up to px with y down.
 struct Pen<'a, S> {
     origin: (f64, f64),
     scale: f64,

@@ -4,24 +4,24 @@ use crate::font::Font;
 use crate::label::{Label, widest};
 use crate::scale::Scale;
 
-/// Font size and line height of the labels of marker lines, px.
+/// Font size and line height of the labels of marker lines, in px.
 pub(crate) const SIZE: f64 = 12.5;
 pub(crate) const LINE: f64 = 16.0;
 
 /// A vertical marker line with its label above the panel.
 pub(crate) struct Guide {
-    /// Where the line stands.
+    /// Value at which the line is drawn.
     pub(crate) x: f64,
     /// Middle of the label.
     pub(crate) text_x: f64,
-    /// Row of the label's last line; 0 is next to the panel.
+    /// Row of the label's last line; row 0 is next to the panel.
     pub(crate) row: usize,
     pub(crate) lines: Vec<Label>,
 }
 
-/// Lays the labels of a panel's marker lines into rows so that none overlaps.
-/// So many px at the left of each row as `reserved` has are taken by another text. Returns
-/// the guides in view and the number of rows.
+/// Arranges the labels of a panel's marker lines in rows so that none overlap. `reserved` has, for
+/// each row, the width in px at its left that another text takes. Returns the marker lines in view
+/// and the number of rows.
 pub(crate) fn place(
     panel: &Panel,
     scale: &Scale,

@@ -1,9 +1,9 @@
 use crate::font::Font;
 
-/// Characters with a meaning of their own.
+/// Characters with a special meaning.
 const MARKS: &str = "_^{}\\";
 
-/// Where a run of text stands relative to the line.
+/// Vertical position of a run of text relative to the line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Level {
     Line,
@@ -12,7 +12,7 @@ pub(crate) enum Level {
 }
 
 impl Level {
-    /// Size of the glyphs relative to those on the line.
+    /// Returns the font size of raised or lowered text, relative to text on the line.
     pub(crate) const fn size(self) -> f64 {
         match self {
             Self::Line => 1.0,
@@ -20,7 +20,7 @@ impl Level {
         }
     }
 
-    /// Downward shift of the baseline, in em of the line.
+    /// Returns the downward shift of the baseline, relative to the font size of the line.
     pub(crate) const fn drop(self) -> f64 {
         match self {
             Self::Line => 0.0,
@@ -44,8 +44,7 @@ pub(crate) struct Label {
 }
 
 impl Label {
-    /// Reads the markup described in the module documentation; any text is
-    /// valid.
+    /// Parses the markup described in the module documentation; every text is valid.
     pub(crate) fn parse(markup: &str) -> Self {
         let mut label = Self::default();
         let mut rest = markup;
@@ -77,8 +76,8 @@ impl Label {
         label
     }
 
-    /// Adds a character. Control characters become spaces, and what XML cannot
-    /// carry at all the sign for it.
+    /// Adds a character. Control characters become spaces; characters that XML does not allow
+    /// become the replacement character.
     fn push(&mut self, level: Level, character: char) {
         let character = match character {
             '\u{fffe}' | '\u{ffff}' => '\u{fffd}',
@@ -103,7 +102,7 @@ impl Label {
         self.runs.is_empty()
     }
 
-    /// Width in px at a font size in px.
+    /// Returns the width in px at a font size in px.
     pub(crate) fn width(&self, font: &Font, size: f64) -> f64 {
         let em: f64 = self.characters().map(|(l, c)| em_width(font, l, c)).sum();
         em * size
@@ -115,8 +114,8 @@ impl Label {
             .flat_map(|run| run.text.chars().map(|c| (run.level, c)))
     }
 
-    /// Breaks the text at spaces, and a word that is too long anywhere, so that
-    /// no line is wider than `width` px. An empty label has no line.
+    /// Breaks the text at spaces, and a too long word at any character, so that no line is wider
+    /// than `width` px. An empty label has no lines.
     pub(crate) fn wrap(&self, font: &Font, size: f64, width: f64) -> Vec<Self> {
         let mut lines: Vec<Self> = Vec::new();
         let mut line = Self::default();
@@ -149,7 +148,7 @@ impl Label {
         lines
     }
 
-    /// The parts between spaces on the line.
+    /// Splits the text at spaces that are neither raised nor lowered.
     fn words(&self) -> Vec<Self> {
         let mut words = vec![Self::default()];
         for (level, character) in self.characters() {
@@ -164,7 +163,7 @@ impl Label {
     }
 }
 
-/// Returns a label that shows `text` as it stands, whatever is in it.
+/// Returns a label that shows `text` as it is, with all its characters.
 ///
 /// # Examples
 /// ```
@@ -182,7 +181,7 @@ pub fn verbatim(text: &str) -> String {
     label
 }
 
-/// The text that a `_` or `^` acts on, and the text that follows it.
+/// Splits the text after a `_` or `^` into the part that is lowered or raised and the remainder.
 fn script(rest: &str) -> Option<(&str, &str)> {
     if let Some(group) = rest.strip_prefix('{') {
         return group.split_once('}');
@@ -195,7 +194,7 @@ fn em_width(font: &Font, level: Level, character: char) -> f64 {
     font.advance(character) * level.size()
 }
 
-/// Width in px of the widest of some lines.
+/// Returns the width in px of the widest of several lines.
 pub(crate) fn widest(lines: &[Label], font: &Font, size: f64) -> f64 {
     lines
         .iter()

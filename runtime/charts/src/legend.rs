@@ -1,27 +1,28 @@
 use crate::description::{Chart, Series};
 use crate::font::Font;
 use crate::label::{Label, widest};
-use crate::style::{Dash, Fill, Style, automatic};
+use crate::style::{DOT, Dash, Fill, RADIUS, Style, automatic};
 
-/// Font size, line height, and sizes of the sample in front of the text, px.
+/// Font size, line height, and sizes of the sample in front of the text, in px.
 pub(crate) const SIZE: f64 = 12.5;
 pub(crate) const LINE: f64 = 16.0;
 pub(crate) const SAMPLE: f64 = 30.0;
 pub(crate) const GAP: f64 = 7.0;
-/// Space between entries, vertically and horizontally.
+/// Vertical and horizontal gap between entries, in px.
 pub(crate) const ROW_GAP: f64 = 4.0;
 pub(crate) const COLUMN_GAP: f64 = 22.0;
-/// Space between a panel and the legend at its right.
+/// Gap between a panel and the legend to its right, in px.
 pub(crate) const SIDE_GAP: f64 = 14.0;
 
-/// Part of the chart's width that a legend at the right may take.
+/// Largest fraction of the chart's width that a legend on the right may take.
 const WIDEST_SIDE: f64 = 0.3;
-/// Least width in px of a chart beside whose panels it stands.
+/// Least width (px) of a chart whose legend is next to its panels.
 const LEAST_WIDTH: f64 = 500.0;
 
-/// The explanation of the series, with its place.
+/// The legend, which explains the series, with its position.
 pub(crate) struct Legend {
-    /// Entries for each panel at whose right they stand. Below, the only list.
+    /// Entries, one list for each panel if the legend is to the right of the panels; otherwise a
+    /// single list.
     pub(crate) lists: Vec<Vec<Entry>>,
     pub(crate) below: bool,
     /// Width of the widest entry.
@@ -41,9 +42,9 @@ impl Entry {
 }
 
 impl Legend {
-    /// The legend of panels as high as `heights`: at the right if the panels are in
-    /// one column, it is narrow enough and no panel's entries are higher than the
-    /// panel, else below.
+    /// Plans the legend of panels of these heights. It is to the right if the panels are in one
+    /// column, it is narrow enough and no panel's entries are higher than the panel; otherwise it
+    /// is below.
     pub(crate) fn plan(
         chart: &Chart,
         styles: &[Vec<Style>],
@@ -73,7 +74,7 @@ impl Legend {
         }
     }
 
-    /// One entry for each distinct label, in the first panel that has it.
+    /// Creates one entry for each distinct label, in the first panel that has it.
     fn with_text_width(chart: &Chart, styles: &[Vec<Style>], font: &Font, text_width: f64) -> Self {
         let mut seen: Vec<&str> = vec![""];
         let mut lists = Vec::new();
@@ -102,7 +103,7 @@ impl Legend {
         }
     }
 
-    /// Width that the legend takes from the panels.
+    /// Returns the width that the legend takes from the panels.
     pub(crate) fn side_width(&self) -> f64 {
         if self.below || self.cell == 0.0 {
             0.0
@@ -111,7 +112,7 @@ impl Legend {
         }
     }
 
-    /// The rows of a legend below that is `width` wide.
+    /// Returns the rows of a legend below the panels, for a width of `width` px.
     pub(crate) fn rows(&self, width: f64) -> Vec<&[Entry]> {
         let columns = (width + COLUMN_GAP) / (self.cell + COLUMN_GAP);
         let columns = (columns.floor() as usize).max(1);
@@ -122,7 +123,7 @@ impl Legend {
     }
 }
 
-/// Returns true where a bar of colours stands at the right.
+/// Returns true if a colour bar is to the right of the panels.
 fn panels_shaded(chart: &Chart) -> bool {
     let mut series = chart.panels.iter().flat_map(|panel| &panel.series);
     series.any(|series| series.shades.is_some())
@@ -132,9 +133,9 @@ pub(crate) fn row_height(row: &[Entry]) -> f64 {
     row.iter().map(Entry::height).fold(0.0, f64::max)
 }
 
-/// The style of each series of each panel. Distinct labels count on through
-/// all panels, so that a legend for the whole chart is unambiguous; each series
-/// without a label counts as one more.
+/// Returns the style of each series of each panel. Distinct labels are counted through all panels,
+/// so that a legend for the whole chart is unambiguous; each series without a label counts as one
+/// more.
 pub(crate) fn styles(chart: &Chart) -> Vec<Vec<Style>> {
     let mut known: Vec<&str> = Vec::new();
     let mut style = |series| automatic_for(series, &mut known);
@@ -159,6 +160,7 @@ fn automatic_for<'a>(series: &'a Series, known: &mut Vec<&'a str>) -> Style {
             series.dash.unwrap_or(dash)
         }),
         symbol: series.symbols.then(|| series.symbol.unwrap_or(symbol)),
+        radius: if series.small { DOT } else { RADIUS },
         fill: match series {
             Series { cells: true, .. } => Some(Fill::Crisp),
             Series { low: Some(_), .. } => Some(Fill::Sheer),
@@ -167,8 +169,8 @@ fn automatic_for<'a>(series: &'a Series, known: &mut Vec<&'a str>) -> Style {
     }
 }
 
-/// Returns true if a line turns so often that dashes would be lost in it: about once
-/// in 4 px of a panel of usual width.
+/// Returns true if a line turns so often that dashes could not be seen: about once in 4 px of a
+/// panel of usual width.
 fn is_noisy(series: &Series) -> bool {
     let turns = series.y.windows(3).filter(|y| match y {
         [a, b, c] => (a < b && b > c) || (a > b && b < c),

@@ -63,6 +63,7 @@
 mod areas;
 mod arrange;
 mod axis;
+mod beyond;
 mod cells;
 mod clip;
 mod color_bar;
@@ -72,6 +73,7 @@ mod decimate;
 mod description;
 mod drawing;
 mod error;
+mod error_bars;
 mod film;
 mod font;
 mod guides;
@@ -91,6 +93,6 @@ mod ticks;
 
 pub use description::{Axis, Chart, Panel, Series};
 pub use error::ChartError;
-pub use film::{Film, FilmLink};
+pub use film::{Film, FilmLink, FilmPoint};
 pub use label::verbatim;
 pub use style::{Color, Dash, Symbol};

@@ -10,11 +10,11 @@ use crate::error::ChartError;
 use crate::font::Font;
 use crate::{pdf, png, svg};
 
-/// Size of a px where no width is fixed, mm.
+/// Size of a px in mm, if no width in mm is set.
 const UNIT: f64 = 25.4 / 96.0;
 
 impl Chart {
-    /// Renders to a self-contained SVG document.
+    /// Renders the chart as a self-contained SVG document.
     ///
     /// # Errors
     /// Every variant of [`ChartError`] but `Encode` and `Io`.
@@ -24,7 +24,7 @@ impl Chart {
         Ok(svg::document(&drawing, self.unit))
     }
 
-    /// Renders to the bytes of a PDF file of one page.
+    /// Renders the chart as the bytes of a PDF file of one page.
     ///
     /// # Errors
     /// Every variant of [`ChartError`] but `Encode` and `Io`.
@@ -34,7 +34,7 @@ impl Chart {
         Ok(pdf::document(&drawing, &font, self.unit.unwrap_or(UNIT)))
     }
 
-    /// Renders to the bytes of a PNG file of `scale` pixels per px, RGBA.
+    /// Renders the chart as the bytes of an RGBA PNG file with `scale` pixels per px.
     ///
     /// # Errors
     /// Every variant of [`ChartError`] but `Io`.
@@ -44,7 +44,7 @@ impl Chart {
         png::encode(&drawing, &font, self.scale, self.unit.unwrap_or(UNIT))
     }
 
-    /// Writes [`Chart::to_svg`] to a file, replacing what was there.
+    /// Writes the result of [`Chart::to_svg`] to a file, which is overwritten.
     ///
     /// # Errors
     /// As [`Chart::to_svg`], and [`ChartError::Io`].
@@ -52,7 +52,7 @@ impl Chart {
         write(path.as_ref(), self.to_svg()?.as_bytes())
     }
 
-    /// Writes [`Chart::to_png`] to a file, replacing what was there.
+    /// Writes the result of [`Chart::to_png`] to a file, which is overwritten.
     ///
     /// # Errors
     /// As [`Chart::to_png`], and [`ChartError::Io`].
@@ -60,7 +60,7 @@ impl Chart {
         write(path.as_ref(), &self.to_png()?)
     }
 
-    /// Writes [`Chart::to_pdf`] to a file, replacing what was there.
+    /// Writes the result of [`Chart::to_pdf`] to a file, which is overwritten.
     ///
     /// # Errors
     /// As [`Chart::to_pdf`], and [`ChartError::Io`].

@@ -8,7 +8,7 @@ use crate::style::{Color, Dash, Fill, Symbol};
 
 /// Points in a millimetre.
 const POINTS: f64 = 72.0 / 25.4;
-/// Effort of compression, 0 to 10.
+/// Compression level, 0 to 10.
 const EFFORT: u8 = 7;
 
 const CATALOG: Ref = Ref::new(1);
@@ -23,12 +23,13 @@ const DESCRIPTOR: Ref = Ref::new(9);
 const FONT_FILE: Ref = Ref::new(10);
 const CHARACTERS: Ref = Ref::new(11);
 
-/// Names in the resources of the page.
+/// Names of resources on the page.
 const FONT_NAME: Name<'_> = Name(b"F");
 const SHEER_NAME: Name<'_> = Name(b"S");
 const BASE_FONT: Name<'_> = Name(b"DejaVuSans");
 
-/// The drawing as a PDF of one page, `unit` mm a px. Text stays text: the font is in the file.
+/// Returns the drawing as a PDF document of one page, with `unit` mm per px. Text remains text,
+/// since the font is embedded.
 pub(crate) fn document(drawing: &Drawing, font: &Font, unit: f64) -> Vec<u8> {
     let scale = unit * POINTS;
     let [width, height] = [drawing.width, drawing.height].map(|side| (side * scale) as f32);
@@ -60,7 +61,7 @@ pub(crate) fn document(drawing: &Drawing, font: &Font, unit: f64) -> Vec<u8> {
     pdf.finish()
 }
 
-/// Puts the font into the file, with the characters of the glyphs that are drawn.
+/// Embeds the font in the file, with the characters of the glyphs that are drawn.
 fn embed(pdf: &mut Pdf, font: &Font, drawing: &Drawing) {
     let info = SystemInfo {
         registry: Str(b"Adobe"),
@@ -229,7 +230,8 @@ impl Canvas {
         self.0.end_text();
     }
 
-    /// Shows glyphs from a place along and below the baseline of a text on.
+    /// Draws glyphs of a text, beginning at a position given by its distances along and below the
+    /// text's baseline.
     fn show(&mut self, text: &Text, (along, below): Point, glyphs: &[u8]) {
         if glyphs.is_empty() {
             return;
@@ -284,7 +286,7 @@ fn parts(Color { red, green, blue }: Color) -> [f32; 3] {
     [red, green, blue].map(|part| f32::from(part) / 255.0)
 }
 
-/// A length in px with two decimals, as the SVG has it.
+/// Rounds a length in px to two decimals, as in the SVG.
 fn rounded(length: f64) -> f32 {
     ((length * 100.0).round() / 100.0) as f32
 }

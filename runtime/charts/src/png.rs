@@ -9,7 +9,7 @@ use crate::style::{Color, Dash, Fill, Symbol, WHITE};
 
 const BLACK: Color = Color::rgb(0, 0, 0);
 
-/// The drawing as a PNG of `scale` pixels per px, each of `unit` mm.
+/// Returns the drawing as a PNG of `scale` pixels per px; a px has `unit` mm.
 pub(crate) fn encode(
     drawing: &Drawing,
     font: &Font,
@@ -34,7 +34,7 @@ pub(crate) fn encode(
     Ok(bytes)
 }
 
-/// Drawings of one size as an animated PNG, which shows each for `interval` (s).
+/// Returns drawings of one size as an animated PNG, which shows each for `interval` seconds.
 pub(crate) fn encode_film(
     drawings: impl ExactSizeIterator<Item = Drawing>,
     font: &Font,

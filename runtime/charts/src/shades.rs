@@ -10,7 +10,7 @@ use crate::drawing::Mark;
 use crate::style::{Fill, ramp};
 
 impl ColorBar {
-    /// The cells of a shaded series.
+    /// Adds the cells of a shaded series to `marks`.
     pub(crate) fn cells(
         &self,
         series: &Series,
@@ -36,7 +36,7 @@ impl ColorBar {
     }
 }
 
-/// Cells with neighbours of one row as one, so that a file stays small.
+/// Joins neighbouring cells of a row, which makes the file smaller.
 fn joined(mut cells: Vec<Rect>) -> Vec<Rect> {
     cells.sort_by(|a, b| a.top.total_cmp(&b.top).then(a.left.total_cmp(&b.left)));
     let mut joined: Vec<Rect> = Vec::new();

@@ -10,12 +10,12 @@ pub struct Color {
 }
 
 impl Color {
-    /// A colour from its sRGB components.
+    /// Creates a colour from its sRGB components.
     pub const fn rgb(red: u8, green: u8, blue: u8) -> Self {
         Self { red, green, blue }
     }
 
-    /// The colour that the series of this number has where none is given.
+    /// Returns the default colour of the series with this index.
     pub const fn of_series(index: usize) -> Self {
         PALETTE[index % PALETTE.len()]
     }
@@ -39,7 +39,7 @@ pub enum Dash {
 }
 
 impl Dash {
-    /// Lengths in px of strokes and gaps by turns; empty for a solid line.
+    /// Returns the lengths in px of strokes and gaps, alternating; empty for a solid line.
     pub(crate) const fn pattern(self) -> &'static [f32] {
         match self {
             Self::Solid => &[],
@@ -71,8 +71,8 @@ pub enum Symbol {
 }
 
 impl Symbol {
-    /// Corners for a symbol of radius 1, y down; empty for the disc. The sizes
-    /// differ so that the areas look equal.
+    /// Returns the corners of a symbol of radius 1, y down; empty for the disc. The sizes differ so
+    /// that the areas look equal.
     pub(crate) const fn corners(self) -> &'static [(f64, f64)] {
         // Half the thickness of a bar of the crosses, and that bar turned by
         // 45 degrees.
@@ -118,27 +118,33 @@ impl Symbol {
     }
 }
 
-/// The look of a series, by which it is told from the others.
+/// Style of a series, by which it differs from the others.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Style {
     pub(crate) color: Color,
-    /// `None` where the samples are not joined.
+    /// Dash pattern of the line; `None` if the samples are not joined.
     pub(crate) dash: Option<Dash>,
     pub(crate) symbol: Option<Symbol>,
+    /// Radius of the symbol, px.
+    pub(crate) radius: f64,
     pub(crate) fill: Option<Fill>,
 }
+
+/// Radius of symbols, and radius of dots, in px.
+pub(crate) const RADIUS: f64 = 4.0;
+pub(crate) const DOT: f64 = 1.6;
 
 /// How an area is filled.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Fill {
-    /// So that what lies behind shows through.
+    /// Half transparent, so that marks behind it show through.
     Sheer,
-    /// Opaque and without smoothed edges, which would show between neighbours.
+    /// Opaque and without smoothed edges, which would be visible between neighbouring cells.
     Crisp,
 }
 
 impl Fill {
-    /// Part of the light that it keeps back.
+    /// Returns the opacity, from 0 to 1.
     pub(crate) const fn opacity(self) -> f64 {
         match self {
             Self::Sheer => 0.35,
@@ -147,9 +153,9 @@ impl Fill {
     }
 }
 
-/// Colours of `count` classes from low to high: from blue over grey to yellow, in
-/// equal steps of lightness for all common forms of colour vision (cividis: J. R.
-/// Nuñez, C. R. Anderton and R. S. Renslow, PLoS ONE 13 (2018) e0199239).
+/// Returns `count` colours from low to high: from blue over grey to yellow, in equal steps of
+/// lightness for all common forms of colour vision (cividis: J. R. Nuñez, C. R. Anderton and R. S.
+/// Renslow, PLoS ONE 13 (2018) e0199239).
 pub(crate) fn ramp(count: usize) -> Vec<Color> {
     const STOPS: [(f64, f64, f64); 5] = [
         (0.0, 34.0, 78.0),
@@ -172,9 +178,9 @@ pub(crate) fn ramp(count: usize) -> Vec<Color> {
     (0..count).map(color).collect()
 }
 
-/// Colours that eyes without one of the three kinds of cones tell apart, and print in grey too:
-/// lightness differs by 16 (of 100) among the first four, by 9 among all, and no pair comes nearer
-/// than 23 (CIE 1976) where the green cones are missing.
+/// Colours that can be distinguished without one of the three kinds of cones, and in a grey print:
+/// their lightness differs by at least 16 (of 100) among the first four and 9 among all, and for
+/// eyes without green cones every pair differs by at least 23 (CIE 1976).
 const PALETTE: [Color; 7] = [
     Color::rgb(6, 30, 177),
     Color::rgb(183, 98, 42),
@@ -197,9 +203,9 @@ const SYMBOLS: [Symbol; 7] = [
     Symbol::Cross,
 ];
 
-/// Colour, dash and symbol of the `index`-th series. Four dashes against seven
-/// colours, and symbols that move on by one when the colours begin anew: the first 28
-/// lines differ pairwise, and the first 49 kinds of points.
+/// Returns colour, dash pattern and symbol of the `index`-th series. There are seven colours and
+/// four dash patterns, and the symbol advances by one when the colours begin again: the first 28
+/// lines differ pairwise, as do the first 49 kinds of points.
 pub(crate) fn automatic(index: usize) -> (Color, Dash, Symbol) {
     (
         Color::of_series(index),

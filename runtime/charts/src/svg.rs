@@ -4,11 +4,11 @@ use crate::drawing::{Anchor, Drawing, Mark, Point, Text};
 use crate::label::{Label, Level};
 use crate::style::{Color, Dash, Fill, Symbol, WHITE};
 
-/// DejaVu Sans first, of which the layout knows the widths; those after it are
-/// as wide or narrower. Kerning, which the layout leaves out, stays off.
+/// Font families: first DejaVu Sans, whose widths the layout uses; the others are as wide or
+/// narrower. Kerning is off, since the layout ignores it.
 const FAMILIES: &str = "DejaVu Sans, Verdana, Helvetica, Arial, sans-serif";
 
-/// The drawing as an SVG 1.1 document, `unit` mm a px where that is given.
+/// Returns the drawing as an SVG 1.1 document, with `unit` mm per px if given.
 pub(crate) fn document(drawing: &Drawing, unit: Option<f64>) -> String {
     let size = (drawing.width, drawing.height);
     let mut out = opening(&drawing.title, size, unit, WHITE);
@@ -19,8 +19,8 @@ pub(crate) fn document(drawing: &Drawing, unit: Option<f64>) -> String {
     out
 }
 
-/// The beginning of a document of this size (px, which have `unit` mm each where that is given):
-/// title and background.
+/// Returns the beginning of a document of this size (px, each of `unit` mm if given): title and
+/// background.
 pub(crate) fn opening(
     title: &str,
     (width, height): Point,
@@ -66,7 +66,7 @@ pub(crate) fn push_mark(out: &mut String, mark: &Mark) {
     }
 }
 
-/// Writes into a string, which cannot fail.
+/// Appends formatted text to a string, which cannot fail.
 macro_rules! put {
     ($out:expr, $($arg:tt)*) => {
         let _ = write!($out, $($arg)*);
@@ -157,8 +157,8 @@ fn push_text(out: &mut String, text: &Text) {
     out.push_str("</text>\n");
 }
 
-/// Runs follow each other in the flow of the text, shifted only vertically, so
-/// that they stay together in any font.
+/// Writes the runs of a label one after the other, shifted only vertically, so that they stay
+/// together in any font.
 fn push_runs(out: &mut String, label: &Label, size: f64) {
     if let [only] = label.runs.as_slice()
         && only.level == Level::Line
@@ -195,7 +195,7 @@ fn escape(text: &str) -> String {
     escaped
 }
 
-/// A length with two decimals at most.
+/// A length with at most two decimals.
 #[derive(Clone, Copy)]
 pub(crate) struct Px(pub(crate) f64);
 
@@ -206,7 +206,7 @@ impl std::fmt::Display for Px {
     }
 }
 
-/// A colour as six hexadecimal digits.
+/// A colour, written as six hexadecimal digits.
 pub(crate) struct Hex(pub(crate) Color);
 
 impl std::fmt::Display for Hex {

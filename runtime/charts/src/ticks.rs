@@ -1,4 +1,5 @@
 use crate::decimal::{leading_decade, number, plain, power, reads_plain};
+use crate::description::Axis;
 use crate::label::Label;
 use crate::scale::Scale;
 
@@ -17,28 +18,73 @@ pub(crate) struct Ticks {
     pub(crate) major: Vec<Tick>,
     /// Coordinates of ticks without label.
     pub(crate) minor: Vec<f64>,
-    /// The part common to all labels, as label markup: a power of ten that
-    /// multiplies them, and a number to be added after that.
+    /// Part that is common to all labels, as label markup: a power of ten by which they are
+    /// multiplied, and a number that is added afterwards.
     pub(crate) common: Option<String>,
+    /// Exponent of that common power of ten, if no number is added.
+    pub(crate) exponent: Option<i32>,
 }
 
-/// Labels of more digits than this have their common part taken out.
+/// Number of digits above which the common part is removed from labels.
 const MOST_DIGITS: u32 = 6;
 
-/// Ticks for a scale, `most` with labels at most where `most` >= 2. With 5 or
-/// more allowed, a linear scale has 2 at least.
+/// Returns the ticks for a scale, at most `most` of them with labels if `most` >= 2. If 5 or more
+/// are allowed, a linear scale has at least 2.
 pub(crate) fn ticks(scale: &Scale, most: usize) -> Ticks {
     if scale.log {
         logarithmic(scale.low, scale.high, most)
     } else {
-        linear(scale.low, scale.high, most)
+        linear(scale.low, scale.high, most, 0.0)
     }
 }
 
-/// Multiples of 1, 2 or 5 times a power of ten. A tick is a whole number of
-/// such powers, so that its label is exact.
-fn linear(low: f64, high: f64, most: usize) -> Ticks {
-    let (mut step, mut exponent) = step_at_least((high - low) / (most + 1) as f64);
+/// Returns the ticks of an axis, and the label of the axis, in which the unit gets the SI prefix of
+/// the power of ten that is common to all ticks.
+pub(crate) fn labelled(axis: &Axis, scale: &Scale, most: usize) -> (Ticks, String) {
+    let mut ticks = match axis.whole && !scale.log {
+        true => linear(scale.low, scale.high, most, 1.0),
+        false => ticks(scale, most),
+    };
+    match ticks
+        .exponent
+        .and_then(|power| prefixed(&axis.label, power))
+    {
+        Some(label) => {
+            (ticks.common, ticks.exponent) = (None, None);
+            (ticks, label)
+        }
+        None => (ticks, axis.label.clone()),
+    }
+}
+
+/// SI units that can get a prefix; units that usually have prefixes for large numbers come first.
+const UNITS: [&str; 4] = ["J", "W", "Hz", "N"];
+const UNITS_OF_SMALL: [&str; 3] = ["s", "m", "rad"];
+
+/// Returns a label that ends with a unit, with the SI prefix of a power of ten added; `None` for
+/// other units.
+fn prefixed(label: &str, exponent: i32) -> Option<String> {
+    let (quantity, unit) = label.strip_suffix(')')?.rsplit_once('(')?;
+    let has_prefix = UNITS.contains(&unit) || (exponent < 0 && UNITS_OF_SMALL.contains(&unit));
+    let prefix = match exponent {
+        -15 => "f",
+        -12 => "p",
+        -9 => "n",
+        -6 => "µ",
+        -3 => "m",
+        3 => "k",
+        6 => "M",
+        9 => "G",
+        _ => return None,
+    };
+    has_prefix.then(|| format!("{quantity}({prefix}{unit})"))
+}
+
+/// Returns ticks at multiples of 1, 2 or 5 times a power of ten. A tick is a whole number of such
+/// powers, so that its label is exact. Ticks are at least `least_step` apart.
+fn linear(low: f64, high: f64, most: usize, least_step: f64) -> Ticks {
+    let even = (high - low) / (most + 1) as f64;
+    let (mut step, mut exponent) = step_at_least(even.max(least_step));
     let (mut first, mut last) = multiples(low, high, step, exponent);
     while last - first >= most.max(2) as i64 {
         // Coarser by a factor of at least 5/4, so the next of 1, 2 and 5.
@@ -48,7 +94,7 @@ fn linear(low: f64, high: f64, most: usize) -> Ticks {
     let unit = Unit(exponent);
     let digits: Vec<i64> = (first..=last).map(|n| n * step).collect();
     let at = digits.iter().map(|n| unit.times(*n).clamp(low, high));
-    let (labels, common) = labels(&digits, exponent);
+    let (labels, common, power) = labels(&digits, exponent);
     Ticks {
         major: at
             .zip(labels)
@@ -56,16 +102,17 @@ fn linear(low: f64, high: f64, most: usize) -> Ticks {
             .collect(),
         minor: Vec::new(),
         common,
+        exponent: power,
     }
 }
 
-/// A power of ten by its exponent.
+/// A power of ten, given by its exponent.
 #[derive(Clone, Copy)]
 struct Unit(i32);
 
 impl Unit {
-    /// `digits` x 10^exponent. Dividing by a positive power rounds once, where
-    /// multiplying by a negative one, itself rounded, rounds twice.
+    /// Returns `digits` x 10^exponent. Dividing by a positive power rounds once, whereas
+    /// multiplying by a negative power, which is rounded itself, rounds twice.
     fn times(self, digits: i64) -> f64 {
         if self.0 < 0 {
             digits as f64 / 10f64.powi(-self.0)
@@ -75,8 +122,8 @@ impl Unit {
     }
 }
 
-/// The least product of 1, 2 or 5 and a power of ten that reaches `least`, as
-/// these factors.
+/// Returns the smallest product of 1, 2 or 5 and a power of ten that is at least `least`, as these
+/// two factors.
 fn step_at_least(least: f64) -> (i64, i32) {
     let exponent = least.log10().floor() as i32;
     for step in [1, 2, 5] {
@@ -87,8 +134,8 @@ fn step_at_least(least: f64) -> (i64, i32) {
     (1, exponent + 1)
 }
 
-/// First and last multiple of `step` x 10^`exponent` within the range. One that
-/// is an end of the range up to rounding counts.
+/// Returns the first and the last multiple of `step` x 10^`exponent` within a range. Multiples that
+/// coincide with an end of the range up to rounding count.
 fn multiples(low: f64, high: f64, step: i64, exponent: i32) -> (i64, i64) {
     let step = Unit(exponent).times(step);
     let (low, high) = (low / step, high / step);
@@ -97,8 +144,8 @@ fn multiples(low: f64, high: f64, step: i64, exponent: i32) -> (i64, i64) {
     (first, (high + slack(high)).floor() as i64)
 }
 
-/// The range, its ends moved outwards to a multiple of a coarse step where
-/// one lies closer than a hundredth of the span: 0 to 19.99 becomes 0 to 20.
+/// Returns the range, with an end moved outwards to a multiple of a coarse step if one lies closer
+/// than a hundredth of the span: 0 to 19.99 becomes 0 to 20.
 pub(crate) fn rounded_outwards(low: f64, high: f64) -> (f64, f64) {
     let span = high - low;
     let (step, exponent) = step_at_least(span / 10.0);
@@ -119,8 +166,9 @@ pub(crate) fn rounded_outwards(low: f64, high: f64) -> (f64, f64) {
     )
 }
 
-/// Labels of the multiples `digits` of a power of ten, and what they share.
-fn labels(digits: &[i64], exponent: i32) -> (Vec<String>, Option<String>) {
+/// Returns the labels of the multiples `digits` of a power of ten, their common part, and its
+/// exponent if the common part is only a power of ten.
+fn labels(digits: &[i64], exponent: i32) -> (Vec<String>, Option<String>, Option<i32>) {
     let largest = |digits: &[i64]| {
         let largest = digits.iter().copied().max_by_key(|n| n.unsigned_abs());
         largest.unwrap_or(0)
@@ -142,12 +190,13 @@ fn labels(digits: &[i64], exponent: i32) -> (Vec<String>, Option<String>) {
             Some(format!("×{} {offset}", power(shift)))
         }
     };
+    let power = (shift != 0 && offset == 0).then_some(shift);
     let labels = digits.iter().map(|n| plain(*n, exponent - shift));
-    (labels.collect(), common)
+    (labels.collect(), common, power)
 }
 
-/// The number to subtract so that the labels are short, where ticks lie close to each
-/// other and far from zero: the roundest number between the first and the last.
+/// Returns the number to subtract so that labels are short, if ticks are close to each other and
+/// far from zero: the roundest number between the first and the last tick.
 fn offset(digits: &[i64], largest: i64) -> i64 {
     let (Some(&first), Some(&last)) = (digits.first(), digits.last()) else {
         return 0;
@@ -171,14 +220,14 @@ fn offset(digits: &[i64], largest: i64) -> i64 {
         .unwrap_or(0)
 }
 
-/// The number with a sign that also says "to be added".
+/// Formats a number with a sign that shows it is to be added.
 fn signed(digits: i64, exponent: i32) -> String {
     let sign = if digits < 0 { "−" } else { "+" };
     format!("{sign} {}", number(digits.abs(), exponent))
 }
 
-/// Ticks of an axis from 10^`low` to 10^`high`: at decades, at every n-th of
-/// them where there are many, or within the decade where there is hardly one.
+/// Returns ticks for an axis from 10^`low` to 10^`high`: at decades, at every n-th decade if there
+/// are many, or within the decade if there is hardly one.
 fn logarithmic(low: f64, high: f64, most: usize) -> Ticks {
     let first = (low - 1e-9).ceil() as i32;
     let last = (high + 1e-9).floor() as i32;
@@ -213,12 +262,12 @@ fn logarithmic(low: f64, high: f64, most: usize) -> Ticks {
             })
             .collect(),
         minor,
-        common: None,
+        ..Ticks::default()
     }
 }
 
-/// Ticks at 1, 2 and 5 in each decade, or, in a narrower range, at the even
-/// steps of a linear axis.
+/// Returns ticks at 1, 2 and 5 in each decade or, in a narrower range, at the even steps of a
+/// linear axis.
 fn within_decade(low: f64, high: f64, most: usize) -> Ticks {
     let decades = low.floor() as i32..=high.floor() as i32;
     let digits = decades
@@ -239,7 +288,7 @@ fn within_decade(low: f64, high: f64, most: usize) -> Ticks {
             ..Ticks::default()
         };
     }
-    let mut ticks = linear(from, to, most);
+    let mut ticks = linear(from, to, most, 0.0);
     for tick in &mut ticks.major {
         tick.at = tick.at.log10().clamp(low, high);
     }
@@ -251,7 +300,7 @@ pub(crate) fn tick_labels(ticks: &Ticks) -> Vec<Label> {
     labels.map(|tick| Label::parse(&tick.label)).collect()
 }
 
-/// How many ticks an axis of this length has room for, `apart` px each.
+/// Returns how many ticks fit on an axis of this length if they are `apart` px apart.
 pub(crate) fn most(length: f64, apart: f64) -> usize {
     ((length / apart) as usize).clamp(5, 40)
 }

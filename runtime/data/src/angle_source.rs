@@ -1,4 +1,4 @@
-//! Whether angles stand in columns or follow from points.
+//! Choice between angles read from columns and angles computed from points.
 
 use super::angles::AngleColumns;
 use super::error::{ReadError, ReadErrorKind};
@@ -8,13 +8,13 @@ use super::names::{Meaning, quoted};
 use super::recording::Recording;
 use super::table::Table;
 
-/// Takes the angles out of a table: out of its columns or its points, of whichever `columns`
-/// or `markers` say more than the clock, the sense of angles and what is an outlier. Where
-/// neither does, points are taken if the table has them.
+/// Reads the angles of a table, from its columns or its points. If `columns` or `markers` sets more
+/// than the clock, the sense of angles and the rule for outliers, that one is used. Otherwise it
+/// uses points if the table has them.
 ///
 /// # Errors
-/// Errors of [`AngleColumns::read`] and [`Markers::read`]; [`ReadErrorKind::Option`] if both
-/// say more, or if neither does and the table has angles beside points.
+/// Errors of [`AngleColumns::read`] and [`Markers::read`]; [`ReadErrorKind::Option`] if both set
+/// more, or if neither does and the table has angles as well as points.
 pub fn read_angles(
     table: &Table,
     columns: &AngleColumns,
@@ -31,13 +31,13 @@ pub fn read_angles(
         (false, true) => markers.read(table),
         (false, false) if table.tracks().is_empty() => columns.read(table),
         (false, false) => {
-            let angles = angles_beside_points(table);
+            let angles = marked_angle_columns(table);
             if angles.is_empty() {
                 return markers.read(table);
             }
             let points: Vec<&str> = table.tracks().iter().map(|t| t.name.as_str()).collect();
             refused(format!(
-                "columns of angles ({}) stand beside points ({}); name the ones or the others",
+                "there are columns of angles ({}) and points ({}); name the ones or the others",
                 quoted(&angles),
                 quoted(&points)
             ))
@@ -45,8 +45,9 @@ pub fn read_angles(
     }
 }
 
-/// Columns that say of themselves that they are angles; those of Tracker belong to its points.
-fn angles_beside_points(table: &Table) -> Vec<&str> {
+/// Returns the names of columns whose name or unit marks them as angles; those of Tracker belong to
+/// its points and are left out.
+fn marked_angle_columns(table: &Table) -> Vec<&str> {
     let all = table.columns();
     let is_angle = |column: &&_| Meaning::of(column, all) == Meaning::Angle;
     let angles = all.iter().filter(is_angle);

@@ -7,8 +7,8 @@ use super::finding::{Basis, Finding};
 use super::table::Table;
 use super::units::{AngleUnit, Unit};
 
-/// The unit of columns: the given one, or that of the header, or radians where the values
-/// allow no other guess.
+/// Determines the unit of columns: the given one, or that of the header, or radians if the values
+/// allow no other conclusion.
 pub(crate) fn read(
     given: Option<AngleUnit>,
     table: &Table,
@@ -16,7 +16,19 @@ pub(crate) fn read(
     findings: &mut Vec<Finding>,
 ) -> Result<AngleUnit, ReadError> {
     let (basis, unit) = match given {
-        Some(unit) => (Basis::Given, unit),
+        // A header is seldom wrong about its unit.
+        Some(unit) => match named(table, columns) {
+            Ok(Some(own)) if own != unit => {
+                let text = format!(
+                    "angles in {}, as the option says, though their columns name {}",
+                    unit.word(),
+                    own.word()
+                );
+                findings.push(Finding::new(Basis::Doubtful, text));
+                return Ok(unit);
+            }
+            _ => (Basis::Given, unit),
+        },
         None => match named(table, columns)? {
             Some(unit) => (Basis::Detected, unit),
             None => (by_values(table, columns)?, AngleUnit::Radians),
@@ -31,7 +43,7 @@ pub(crate) fn read(
     Ok(unit)
 }
 
-/// Refuses a column by its unit.
+/// Returns the error that the unit of a column is not a unit of angles.
 pub(crate) fn refused(table: &Table, column: usize) -> ReadError {
     let own = &table.columns()[column];
     table.refused(ReadErrorKind::Unit {
@@ -53,7 +65,7 @@ fn named(table: &Table, columns: &[usize]) -> Result<Option<AngleUnit>, ReadErro
         };
         if let Some(other) = found.filter(|other| *other != unit) {
             let (a, b) = (other.word(), unit.word());
-            let what = format!("columns of angles in {a} beside some in {b}");
+            let what = format!("columns of angles in {a} and in {b}");
             return Err(table.refused(ReadErrorKind::Option { what }));
         }
         found = Some(unit);
@@ -61,12 +73,13 @@ fn named(table: &Table, columns: &[usize]) -> Result<Option<AngleUnit>, ReadErro
     Ok(found)
 }
 
-/// How sure it is that values are radians, refused where they are hardly: beyond a turn, or
-/// to and fro by more than one, or all in tenths.
+/// Returns how certain it is that values are radians. An error if they hardly are: beyond a turn,
+/// or varying by more than one, or all in tenths.
 fn by_values(table: &Table, columns: &[usize]) -> Result<Basis, ReadError> {
     let (mut largest, mut of) = (0.0, 0);
     let mut widest = 0.0_f64;
     let (mut in_tenths, mut jumps) = (true, false);
+    let mut are_counts = true;
     for &column in columns {
         let (mut least, mut most) = (f64::INFINITY, f64::NEG_INFINITY);
         let mut before: Option<f64> = None;
@@ -77,6 +90,7 @@ fn by_values(table: &Table, columns: &[usize]) -> Result<Basis, ReadError> {
             (least, most) = (least.min(value), most.max(value));
             let tenths = 10.0 * value;
             in_tenths &= (tenths - tenths.round()).abs() < 1e-9;
+            are_counts &= value.fract() == 0.0 && value >= 0.0;
             jumps |= before.is_some_and(|b| ((b - value).abs() - TAU).abs() < 0.1 * TAU);
             before = Some(value);
         }
@@ -86,11 +100,25 @@ fn by_values(table: &Table, columns: &[usize]) -> Result<Basis, ReadError> {
     let turn = 1.001 * TAU;
     if largest > turn || widest > turn || in_tenths && largest > 0.0 {
         let name = table.columns()[of].name.clone();
-        return Err(table.refused(ReadErrorKind::AngleUnit { name, largest }));
+        let counts = are_counts.then(|| counts_a_turn(largest)).flatten();
+        return Err(table.refused(ReadErrorKind::AngleUnit {
+            name,
+            largest,
+            counts,
+        }));
     }
     Ok(if jumps {
         Basis::Assumed
     } else {
         Basis::Doubtful
     })
+}
+
+/// Returns the number of counts per turn, a power of two, that an encoder with this largest count
+/// probably has. `None` unless the largest count exceeds 360 (it could be degrees otherwise) and is
+/// more than half of this number.
+fn counts_a_turn(largest: f64) -> Option<u32> {
+    const BITS: std::ops::RangeInclusive<u32> = 9..=24;
+    let bits = (largest + 1.0).log2().ceil() as u32;
+    BITS.contains(&bits).then(|| 1 << bits)
 }

@@ -4,15 +4,16 @@ use std::f64::consts::PI;
 
 use super::angle_unit;
 use super::circle;
+use super::clock::{Clock, TimeColumns};
 use super::error::{ReadError, ReadErrorKind};
 use super::exchange::{self, Angle};
 use super::finding::{Basis, Finding};
 use super::names::{Meaning, quoted};
 use super::outliers::resolution;
-use super::recording::{LinkSeries, Recording};
+use super::recording::{LinkSeries, Recording, check_memory, check_motion, check_width};
 use super::sample::Sample;
 use super::table::Table;
-use super::timing::{Clock, Times};
+use super::timing::Times;
 use super::units::AngleUnit;
 
 /// Direction of a link at angle 0.
@@ -24,28 +25,31 @@ pub enum AngleZero {
     Up,
 }
 
-/// How angles stand in the columns of a table; what is `None` is detected or assumed.
+/// Form of the angles in the columns of a table; `None` is detected or assumed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AngleColumns {
-    /// Where the times come from.
+    /// Source of the times.
     pub clock: Clock,
-    /// Columns of the links, by name, in the order of the model; empty for all columns but
-    /// those of times and frames, of text and of other units.
+    /// Columns of the links, by name, in the order of the model. If empty, all columns are used,
+    /// except columns with times, frame numbers, text or units other than angles.
     pub columns: Vec<String>,
-    /// Unit; without it that of the header or the cells, or radians, told as doubtful, where
-    /// the values stay within a turn.
+    /// Unit of the angles. `None`: the unit of the header or of the cells, or radians, reported as
+    /// doubtful, if all values are within a turn.
     pub unit: Option<AngleUnit>,
-    /// Direction of angle 0; without it up where the links are on the whole nearer to half a
-    /// turn, else down.
+    /// Direction of angle 0. `None`: upwards if the links are on average nearer to half a turn,
+    /// else downwards.
     pub zero: Option<AngleZero>,
-    /// For each link the index of the one that its angle is measured from, or none for the
-    /// vertical; empty for all from the vertical. A link stands behind the one that it is
-    /// measured from.
+    /// Measured angle of a hanging link, in rad; it is subtracted before the direction of angle 0
+    /// is detected. 0 if camera or encoder are plumb.
+    pub tilt: f64,
+    /// For each link, the index of the link relative to which its angle is measured, or `None` for
+    /// the vertical; empty if all are measured from the vertical. A link must come after the one it
+    /// refers to.
     pub relative_to: Vec<Option<usize>>,
-    /// True if positive angles turn the other way than the model's.
+    /// True if positive angles turn in the direction opposite to the model's.
     pub mirrored: bool,
-    /// Deviations from neighbours, in usual ones, beyond which samples are marked as
-    /// outliers; none marks no sample.
+    /// Deviation from the neighbours, relative to the usual one, above which samples are marked as
+    /// outliers; `None` marks no sample.
     pub outliers: Option<f64>,
 }
 
@@ -56,6 +60,7 @@ impl Default for AngleColumns {
             columns: Vec::new(),
             unit: None,
             zero: None,
+            tilt: 0.0,
             relative_to: Vec::new(),
             mirrored: false,
             outliers: Some(25.0),
@@ -64,16 +69,17 @@ impl Default for AngleColumns {
 }
 
 impl AngleColumns {
-    /// Takes the angles out of a table.
+    /// Reads the angles from the columns of a table.
     ///
     /// # Errors
-    /// [`ReadError`]: columns that do not exist, are named twice or hold something else, a
-    /// time that does not ascend, frames without a rate, a unit that cannot be made out.
+    /// [`ReadError`]: columns that do not exist, are named twice or contain something else,
+    /// times that do not ascend, frames without a rate, a unit that cannot be determined.
     pub fn read(&self, table: &Table) -> Result<Recording, ReadError> {
         let times = Times::read(table, &self.clock)?;
         let mut findings = Vec::new();
-        let columns = self.find_columns(table, times.column, &mut findings)?;
+        let columns = self.find_columns(table, &times.columns, &mut findings)?;
         self.check_parents(table, columns.len())?;
+        check_memory(table, columns.len())?;
         let values: Vec<&[Option<f64>]> = columns
             .iter()
             .map(|&column| table.values(column))
@@ -92,6 +98,8 @@ impl AngleColumns {
                 marker_distance: None,
             })
             .collect();
+        // Before angles are added: a dead encoder on a link that moves.
+        check_motion(table, &links)?;
         let resolutions = links.iter().map(|link| {
             let values = 0..link.samples.len();
             resolution(values.filter_map(|index| link.angle(index)))
@@ -100,7 +108,7 @@ impl AngleColumns {
         if self.outliers.is_some() {
             mend_exchanges(&times, &resolutions, &mut links, &mut findings);
         }
-        self.turn(&mut links, &mut findings);
+        self.to_downward_vertical(&mut links, &mut findings);
         Recording::new(table, times, links, &resolutions, self.outliers, findings)
     }
 
@@ -124,7 +132,7 @@ impl AngleColumns {
     fn find_columns(
         &self,
         table: &Table,
-        time: Option<usize>,
+        time: &TimeColumns,
         findings: &mut Vec<Finding>,
     ) -> Result<Vec<usize>, ReadError> {
         if !self.columns.is_empty() {
@@ -135,7 +143,7 @@ impl AngleColumns {
         for (index, column) in all.iter().enumerate() {
             match Meaning::of(column, all) {
                 Meaning::Time | Meaning::Frame => {}
-                _ if Some(index) == time => {}
+                _ if time.contain(index) => {}
                 Meaning::OtherUnit => aside.push(index),
                 _ if !table.has_numbers(index) => aside.push(index),
                 Meaning::OtherName(quantity) => {
@@ -156,6 +164,7 @@ impl AngleColumns {
                 },
             );
         }
+        check_width(table, columns.len(), "columns")?;
         self.refuse_points(table, &columns)?;
         let names = |columns: &[usize]| {
             let names: Vec<&str> = columns.iter().map(|&c| all[c].name.as_str()).collect();
@@ -170,7 +179,7 @@ impl AngleColumns {
         Ok(columns)
     }
 
-    /// Refuses columns that lie on a circle in pairs, as coordinates of points do.
+    /// Returns an error if pairs of columns lie on circles, as coordinates of points do.
     fn refuse_points(&self, table: &Table, columns: &[usize]) -> Result<(), ReadError> {
         let all = table.columns();
         let is_unsaid = |column: &usize| {
@@ -191,13 +200,13 @@ impl AngleColumns {
         Ok(())
     }
 
-    fn named_columns(&self, table: &Table, time: Option<usize>) -> Result<Vec<usize>, ReadError> {
+    fn named_columns(&self, table: &Table, time: &TimeColumns) -> Result<Vec<usize>, ReadError> {
         let mut columns = Vec::with_capacity(self.columns.len());
         for name in &self.columns {
             let column = table.column(name)?;
             let what = if columns.contains(&column) {
                 format!("column `{name}` is named twice; each link has one of its own")
-            } else if Some(column) == time {
+            } else if time.contain(column) {
                 format!("column `{name}` is the time; name the columns of the angles")
             } else if table.values(column)?.iter().all(Option::is_none) {
                 format!("column `{name}` holds no number")
@@ -210,8 +219,9 @@ impl AngleColumns {
         Ok(columns)
     }
 
-    /// Angles from the downward vertical, in the model's sense.
-    fn turn(&self, links: &mut [LinkSeries], findings: &mut Vec<Finding>) {
+    /// Converts angles to ones measured from the downward vertical, in the model's direction of
+    /// rotation.
+    fn to_downward_vertical(&self, links: &mut [LinkSeries], findings: &mut Vec<Finding>) {
         if self.mirrored {
             findings.push(Finding::new(
                 Basis::Given,
@@ -222,6 +232,12 @@ impl AngleColumns {
             }
         }
         let is_relative = self.relative_to.iter().any(Option::is_some);
+        let roots = || (0..links.len()).filter(|&link| self.parent(link).is_none());
+        if self.tilt != 0.0 {
+            for link in roots().collect::<Vec<_>>() {
+                each(&mut links[link].samples, |value| value - self.tilt);
+            }
+        }
         let roots = || (0..links.len()).filter(|&link| self.parent(link).is_none());
         let (basis, zero) = match self.zero {
             Some(zero) => (Basis::Given, zero),
@@ -260,7 +276,7 @@ impl AngleColumns {
         }
     }
 
-    /// Returns true if something is said that columns of angles alone have.
+    /// Returns true if an option is set that applies to columns of angles only.
     pub(crate) fn is_asked_for(&self) -> bool {
         let Self {
             columns,
@@ -277,7 +293,7 @@ impl AngleColumns {
     }
 }
 
-/// Gives links whose angles changed places in some rows their own ones back.
+/// Exchanges the angles of links back in rows in which they have changed places.
 fn mend_exchanges(
     times: &Times,
     resolutions: &[f64],
@@ -296,7 +312,12 @@ fn mend_exchanges(
         return;
     }
     let names: Vec<&str> = links.iter().map(|link| link.name.as_str()).collect();
-    findings.extend(exchange::told(&exchanges, &names, &times.seconds, interval));
+    findings.extend(exchange::exchange_findings(
+        &exchanges,
+        &names,
+        &times.seconds,
+        interval,
+    ));
     for (link, angles) in links.iter_mut().zip(series) {
         let samples = angles
             .into_iter()
@@ -322,8 +343,8 @@ fn add(samples: &mut [Sample], parent: &[Sample]) {
     }
 }
 
-/// Returns true if a link that hangs would have its angles nearer to half a turn than to
-/// none: the mean cosine is negative.
+/// Returns true if the angles of a link, assumed to be hanging, are nearer to half a turn than to
+/// zero: their mean cosine is negative.
 fn is_nearer_up(samples: &[Sample]) -> bool {
     let cosines = samples.iter().filter_map(|sample| match sample {
         Sample::Measured(value) => Some(value.cos()),

@@ -1,8 +1,8 @@
-//! Cells of a table: numbers, with their units or without, and what is none.
+//! Cells of a table: numbers, with or without units, and other text.
 
 use super::units::{FRAME, Unit};
 
-/// The mark between whole numbers and fractions.
+/// Decimal mark: the character between the integer part and the fraction of a number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum DecimalMark {
     /// `0.5`
@@ -11,10 +11,10 @@ pub enum DecimalMark {
     Comma,
 }
 
-/// What a cell holds.
+/// The content of a cell.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Entry<'a> {
-    /// A number, and the unit behind it; empty for none.
+    /// A number, and the text of its unit; empty if it has none.
     Number {
         value: f64,
         unit: &'a str,
@@ -25,7 +25,7 @@ pub(crate) enum Entry<'a> {
 }
 
 impl<'a> Entry<'a> {
-    /// Reads a cell.
+    /// Parses a cell.
     pub(crate) fn read(cell: &'a str, decimal: DecimalMark) -> Self {
         const MISSING: [&str; 10] = [
             "", "nan", "na", "n/a", "#n/a", "-", "--", "none", "null", "?",
@@ -46,8 +46,8 @@ impl<'a> Entry<'a> {
     }
 }
 
-/// A number as programs write it, with Fortran's `D` and with marks between thousands where
-/// no other reading is possible.
+/// Parses a number as programs write it, including Fortran's `D` and separators of thousands if no
+/// other reading is possible.
 fn number(cell: &str, decimal: DecimalMark) -> Option<f64> {
     let usual = match decimal {
         DecimalMark::Point => cell.parse().ok(),
@@ -61,10 +61,11 @@ fn number(cell: &str, decimal: DecimalMark) -> Option<f64> {
         DecimalMark::Point => ('.', ','),
         DecimalMark::Comma => (',', '.'),
     };
-    // Minus signs of typography, as spreadsheets write them.
+    // Minus signs of typography, as some spreadsheets write them.
     let plain = cell.replace('\u{2212}', "-");
     let whole = plain.split(mark).next().unwrap_or_default();
-    // One mark of thousands alone may be a decimal mark; an apostrophe or a narrow blank not.
+    // A single separator of thousands may be a decimal mark instead, except an apostrophe or a
+    // narrow space.
     let has_fraction = plain.len() > whole.len();
     let separators = [other, '\'', '\u{2019}', '\u{a0}', '\u{202f}'];
     let separator = separators.into_iter().find(|mark| whole.contains(*mark));
@@ -91,8 +92,8 @@ fn number(cell: &str, decimal: DecimalMark) -> Option<f64> {
     })
 }
 
-/// How many groups of three digits follow a first one of at most three; none if others are
-/// among them.
+/// Returns the number of groups of three digits after a first group of at most three; zero if there
+/// are groups of another length.
 fn groups_of_three(whole: &str, separator: char) -> usize {
     let digits = |group: &str| group.bytes().all(|byte| byte.is_ascii_digit());
     let mut groups = whole.trim_start_matches(['-', '+']).split(separator);
@@ -105,7 +106,7 @@ fn groups_of_three(whole: &str, separator: char) -> usize {
     }
 }
 
-/// A number with its unit behind it, a time of day, or the number in a picture's name.
+/// Parses a number with its unit, a time of day, or the number in the name of a picture.
 fn quantity(cell: &str, decimal: DecimalMark) -> Option<Entry<'_>> {
     let of = |value: f64, unit| value.is_finite().then_some(Entry::Number { value, unit });
     if let Some(seconds) = clock(cell, decimal) {
@@ -121,8 +122,8 @@ fn quantity(cell: &str, decimal: DecimalMark) -> Option<Entry<'_>> {
     of(number(digits.trim(), decimal)?, unit)
 }
 
-/// Seconds of a time of day, `12:03:04.5`, or of minutes and seconds with a fraction,
-/// `03:04.5`; two whole numbers may be hours and minutes as well.
+/// Returns the seconds of a time of day, `12:03:04.5`, or of minutes and seconds with a fraction,
+/// `03:04.5`. Two whole numbers are rejected, since they may be hours and minutes.
 fn clock(cell: &str, decimal: DecimalMark) -> Option<f64> {
     let parts: Vec<&str> = cell.split(':').collect();
     let whole = |part: &str, below: u32| {
@@ -146,7 +147,7 @@ fn clock(cell: &str, decimal: DecimalMark) -> Option<f64> {
     }
 }
 
-/// The number at the end of the name of a picture: `labeled-data/film/img0012.png`.
+/// Returns the number at the end of the name of a picture: `labeled-data/film/img0012.png`.
 fn picture(cell: &str) -> Option<f64> {
     let (stem, extension) = cell.rsplit_once('.')?;
     let kinds = ["png", "jpg", "jpeg", "tif", "tiff", "bmp"];
@@ -160,7 +161,7 @@ fn picture(cell: &str) -> Option<f64> {
     stem[name.len()..].parse().ok()
 }
 
-/// Likely meaning of a cell that is no number.
+/// Returns a guess, for a message, of what a cell that is not a number means.
 pub(crate) fn hint(text: &str) -> &'static str {
     let digits = text.chars().filter(char::is_ascii_digit).count();
     let marks = text.chars().filter(|c| matches!(c, '.' | ',')).count();

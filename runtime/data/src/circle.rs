@@ -1,14 +1,15 @@
-//! Columns that are coordinates whatever they are called.
+//! Recognises columns that are coordinates, independently of their names.
 
 use std::f64::consts::PI;
 
-/// Returns the radius of the circle on which pairs of values lie, if they do and go back on an
-/// arc of it, or round: a point at a constant distance from its pivot. Angles of two links may
-/// be on an arc for a while, but do not go back on it.
+/// Returns the radius of the circle on which pairs of values lie, if they move back and forth on an
+/// arc of it, or all around it. They are then the coordinates of a point at a constant distance
+/// from a pivot. The angles of two links may lie on an arc for a while, but do not move back on it.
 pub(crate) fn radius(xs: &[Option<f64>], ys: &[Option<f64>]) -> Option<f64> {
-    /// Largest deviation (rms) from a circle, of its radius.
+    /// Largest rms deviation from a circle, relative to its radius.
     const DEVIATION: f64 = 0.01;
-    /// Smallest distance from the mean that tells an arc from a line, of the radius.
+    /// Smallest extent of an arc, relative to its radius, at which it can be distinguished from a
+    /// straight line. It is measured as the distance of its points from their mean.
     const EXTENT: f64 = 0.3;
     const ROWS: usize = 8;
     let points = xs.iter().zip(ys).filter_map(|(x, y)| Some(((*x)?, (*y)?)));
@@ -38,7 +39,7 @@ pub(crate) fn radius(xs: &[Option<f64>], ys: &[Option<f64>]) -> Option<f64> {
     let extent = points.iter().map(|&(x, y)| (x - x0).hypot(y - y0));
     let extent = extent.fold(0.0, f64::max);
     let is_arc = deviation < DEVIATION * radius && extent > EXTENT * radius;
-    // Angles about the centre, from the direction opposite to the mean's.
+    // Angles about the centre, from the direction opposite to that of the mean.
     let along = points.iter().map(|&(x, y)| {
         let [x, y] = [x - x0 - centre[0], y - y0 - centre[1]];
         let [down, across] = [
@@ -50,8 +51,8 @@ pub(crate) fn radius(xs: &[Option<f64>], ys: &[Option<f64>]) -> Option<f64> {
     (is_arc && goes_back(&along.collect::<Vec<_>>())).then_some(radius)
 }
 
-/// Returns true if angles go through half of their range again, before or behind its ends, or
-/// go round.
+/// Returns true if the angles on the circle move back over half of their range, or complete a full
+/// turn.
 fn goes_back(angles: &[f64]) -> bool {
     let place = |is_least: bool| {
         let sign = if is_least { -1.0 } else { 1.0 };

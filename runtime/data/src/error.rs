@@ -1,4 +1,4 @@
-//! Why a file of measurements was not read.
+//! Errors in reading a file of measurements.
 
 use core::fmt;
 use std::io;
@@ -6,56 +6,16 @@ use std::path::PathBuf;
 
 use super::cell::hint;
 use super::finding::counted;
+use super::place::{Place, Sheet};
 
-/// A place in a file: line and column counted from 1, and the column's name.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Place {
-    /// Line of the file.
-    pub line: u64,
-    /// Number of the cell in that line; none where the whole line is meant.
-    pub column: Option<usize>,
-    /// Name of the column, where it has one.
-    pub name: Option<String>,
-}
-
-impl Place {
-    pub(crate) fn line(line: u64) -> Self {
-        Self {
-            line,
-            column: None,
-            name: None,
-        }
-    }
-
-    pub(crate) fn cell(line: u64, index: usize, name: Option<&str>) -> Self {
-        Self {
-            line,
-            column: Some(index + 1),
-            name: name.map(str::to_owned),
-        }
-    }
-}
-
-impl fmt::Display for Place {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { line, column, name } = self;
-        write!(f, "line {line}")?;
-        if let Some(column) = column {
-            write!(f, ", column {column}")?;
-        }
-        if let Some(name) = name {
-            write!(f, " (`{name}`)")?;
-        }
-        Ok(())
-    }
-}
-
-/// A file that was not read: where, and why.
+/// Error in reading a file: its position and reason.
 #[derive(Debug)]
 pub struct ReadError {
     /// The file.
     pub path: PathBuf,
-    /// Place in it, where there is one.
+    /// Sheet of a spreadsheet; `None` for a text file.
+    pub sheet: Option<Sheet>,
+    /// Position in the file, if the error has one.
     pub place: Option<Place>,
     /// The reason.
     pub kind: Box<ReadErrorKind>,
@@ -63,10 +23,18 @@ pub struct ReadError {
 
 impl fmt::Display for ReadError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { path, place, kind } = self;
+        let Self {
+            path,
+            sheet,
+            place,
+            kind,
+        } = self;
         write!(f, "{}", path.display())?;
-        if let Some(place) = place {
-            write!(f, ", {place}")?;
+        match (sheet, place) {
+            (Some(sheet), Some(place)) => write!(f, ", {}", sheet.position(place))?,
+            (Some(sheet), None) => write!(f, ", {sheet}")?,
+            (None, Some(place)) => write!(f, ", {place}")?,
+            (None, None) => {}
         }
         write!(f, ": {kind}")
     }
@@ -78,7 +46,7 @@ impl std::error::Error for ReadError {
     }
 }
 
-/// Reasons for which a file is not read.
+/// Reason why a file could not be read.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum ReadErrorKind {
@@ -86,62 +54,76 @@ pub enum ReadErrorKind {
     #[error("cannot be read")]
     Io(#[source] io::Error),
     /// Bytes that are no text.
-    #[error("is no text but {what}; save it as text (UTF-8)")]
+    #[error("is not text but {what}; save it as text (UTF-8)")]
     NotText {
         /// Kind of the bytes.
         what: &'static str,
     },
-    /// Text that is no table of numbers.
-    #[error("is no table of numbers but {what}; {remedy}")]
+    /// A sheet of a spreadsheet cannot be read.
+    #[error("sheet `{sheet}` cannot be read: {what}; save it as text (CSV)")]
+    Sheet {
+        /// Name of the sheet.
+        sheet: String,
+        /// The reason.
+        what: String,
+    },
+    /// A sheet name was given for a text file, or a cell separator for a spreadsheet.
+    #[error("{what}")]
+    NotSpreadsheet {
+        /// The option, and the kind of file that has it.
+        what: &'static str,
+    },
+    /// The text is not a table of numbers.
+    #[error("is not a table of numbers but {what}; {remedy}")]
     NotTable {
         /// Kind of the text.
         what: &'static str,
-        /// How a table is made of it.
+        /// How to convert it to a table.
         remedy: &'static str,
     },
     /// Nothing but blank lines.
     #[error("is empty")]
     Empty,
     /// No line of numbers.
-    #[error("has no line of numbers in at least two columns")]
+    #[error("has no row with numbers in at least two columns")]
     NoNumbers,
-    /// Fewer rows of numbers than a motion needs.
-    #[error("has {} of numbers; at least {needed} are needed", counted(*found, "row"))]
+    /// The table has fewer rows of numbers than a motion needs.
+    #[error("has {} of numbers; at least {needed} rows are needed", counted(*found, "row"))]
     TooFewRows {
         /// Number of rows.
         found: usize,
         /// Smallest number.
         needed: usize,
     },
-    /// A cell that is neither a number nor one of the words for a missing one.
-    #[error("`{text}` is no number{}", hint(text))]
+    /// A cell is neither a number nor one of the words for a missing value.
+    #[error("`{text}` is not a number{}", hint(text))]
     Number {
         /// The cell.
         text: String,
     },
-    /// A number that is not finite.
+    /// A number is infinite or NaN.
     #[error("`{text}` is not finite; leave the cell of a missing value empty")]
     NotFinite {
         /// The cell.
         text: String,
     },
-    /// A number with another unit than those above it, or than the header's.
-    #[error("`{text}` is not in the unit of its column ({})", if unit.is_empty() { "none" } else { unit })]
+    /// A number has another unit than the numbers above it or the header.
+    #[error("`{text}` has another unit than its column (unit of the column: {})", if unit.is_empty() { "none" } else { unit })]
     CellUnit {
         /// The cell.
         text: String,
         /// Unit of the column.
         unit: String,
     },
-    /// A row with more or fewer cells than the header.
-    #[error("{} where the table has {}", counted(*found, "cell"), counted(*expected, "column"))]
+    /// A row has more or fewer cells than the header.
+    #[error("the row has {}, but the table has {}", counted(*found, "cell"), counted(*expected, "column"))]
     CellCount {
         /// Number of columns.
         expected: usize,
         /// Number of cells.
         found: usize,
     },
-    /// Rows of a header that do not fit each other.
+    /// The rows of a header are inconsistent.
     #[error("{what}")]
     Header {
         /// The reason.
@@ -153,20 +135,20 @@ pub enum ReadErrorKind {
         /// The name.
         name: String,
     },
-    /// No column or track has that name.
+    /// Name of the column, if it has one.
     #[error("there is no {what} `{name}`{}; there are: {}", nearest(name, known), known.join(", "))]
     Unknown {
-        /// Kind of thing: column or track.
+        /// Kind of the named thing: column or track.
         what: &'static str,
         /// The name.
         name: String,
         /// Names that there are.
         known: Vec<String>,
     },
-    /// Nothing in the table tells the time.
-    #[error("no column is the time; name it, or give the frame rate")]
+    /// The table has no column of times.
+    #[error("found no column of times; name the column of the time, or give the frame rate")]
     NoTime,
-    /// A column that counts frames was about to be taken for seconds.
+    /// A column that counts frames would be used as times in seconds.
     #[error(
         "column `{name}` counts frames; give the frame rate (frames are never taken for seconds)"
     )]
@@ -174,17 +156,17 @@ pub enum ReadErrorKind {
         /// The column.
         name: String,
     },
-    /// Times that are whole numbers of nothing: frames, or milliseconds.
+    /// Times are whole numbers without a unit: they may be frames or milliseconds.
     #[error(
-        "column `{name}` holds whole numbers and names no unit; give the frame rate, or the unit \
-         behind the name (frames are never taken for seconds)"
+        "column `{name}` holds whole numbers and names no unit; give the frame rate, or the name of \
+         the column with its unit, as in `{name} [ms]` (frames are never taken for seconds)"
     )]
     WholeTimes {
         /// The column.
         name: String,
     },
-    /// A frame rate that is no positive number.
-    #[error("a frame rate of {value} Hz; it must be finite and positive")]
+    /// The frame rate is not positive and finite.
+    #[error("the frame rate is {value} Hz; it must be finite and positive")]
     FrameRate {
         /// The rate.
         value: f64,
@@ -192,7 +174,34 @@ pub enum ReadErrorKind {
     /// A row without a time.
     #[error("the time is missing")]
     TimeMissing,
-    /// A time that is not later than the one before.
+    /// The table contains several recordings or tracks.
+    #[error(
+        "time {time} s does not come after {previous} s: the table holds {count} {}; take one of \
+         them", succession(column.as_deref())
+    )]
+    Recordings {
+        /// Time of the row before.
+        previous: f64,
+        /// Time of the row.
+        time: f64,
+        /// Number of recordings.
+        count: usize,
+        /// The column that numbers tracks whose rows alternate; `None` for recordings that follow
+        /// each other.
+        column: Option<String>,
+    },
+    /// Times are rounded to too few digits, although rows are evenly spaced.
+    #[error(
+        "several rows have the time {time} s because times are rounded: the rows are evenly spaced, \
+         {rate} per second; give that frame rate"
+    )]
+    RoundedTimes {
+        /// Time of the row.
+        time: f64,
+        /// Number of rows per second, with the digits that the times determine.
+        rate: String,
+    },
+    /// A time is not later than the one before.
     #[error("time {time} s does not come after {previous} s{}", repeated(*previous, *time))]
     TimeOrder {
         /// Time of the row before.
@@ -200,58 +209,100 @@ pub enum ReadErrorKind {
         /// Time of the row.
         time: f64,
     },
-    /// No column is left for angles, or no tracks for markers.
+    /// No column remains for angles, or no track for markers.
     #[error("{what}")]
     Nothing {
         /// Name of the missing thing.
         what: String,
     },
-    /// The unit of angles cannot be made out.
+    /// The unit of angles cannot be determined.
     #[error(
-        "column `{name}` names no unit, and its values, up to {largest}, may be degrees or radians; say which"
+        "column `{name}` names no unit, and its values, up to {largest}, may be {}; give the unit",
+        angle_units(*counts)
     )]
     AngleUnit {
         /// The column.
         name: String,
         /// Largest magnitude.
         largest: f64,
+        /// Counts per turn of an encoder that could have such values; `None` if the values are not
+        /// whole numbers.
+        counts: Option<u32>,
     },
-    /// A column that nobody named as one of angles is called like something else.
+    /// The name of a column that was not explicitly chosen suggests a quantity other than an angle.
     #[error(
-        "column `{name}` is called like {quantity}, not like an angle; name the columns of the \
+        "the name of column `{name}` suggests {quantity}, not an angle; name the columns of the \
          angles, or the points"
     )]
     NotAngle {
         /// The column.
         name: String,
-        /// What its name is one of.
+        /// Quantity that the name suggests.
         quantity: &'static str,
     },
-    /// An angle of more than 10^6 rad.
-    #[error("an angle of `{name}` is {value} rad")]
+    /// Angles without variance.
+    #[error(
+        "the angles of `{name}` never change: all {count} are {value} rad, so they show no \
+         motion; name the columns of links that move, or leave this one out"
+    )]
+    Still {
+        /// The link.
+        name: String,
+        /// Number of its angles.
+        count: usize,
+        /// The angle.
+        value: f64,
+    },
+    /// More columns could be angles than a tree may have links.
+    #[error(
+        "{found} {things} could be links, more than the {most} allowed; name the {things} of the links"
+    )]
+    TooWide {
+        /// Number of columns or tracks.
+        found: usize,
+        /// Columns or tracks.
+        things: &'static str,
+        /// Largest number.
+        most: usize,
+    },
+    /// The table does not fit into memory.
+    #[error(
+        "the {rows} rows of {} do not fit into the memory; split the file, or keep every tenth row",
+        counted(*columns, "column")
+    )]
+    Memory {
+        /// Number of rows.
+        rows: usize,
+        /// Number of columns.
+        columns: usize,
+    },
+    /// An angle is larger than 10^6 rad.
+    #[error(
+        "an angle of `{name}` is {value} rad; at most ±1e6 rad is accepted: check the unit of the column"
+    )]
     Angle {
         /// The link.
         name: String,
         /// The angle.
         value: f64,
     },
-    /// Angles that jump too often to be those of a link.
+    /// Angles jump too often to be those of a link.
     #[error(
         "`{name}` jumps in {count} of {measured} samples (first {first}): the frame rate is too low \
-         for this motion, or it is no angle of a link"
+         for this motion, or the column is not the angle of a link"
     )]
     Jumps {
         /// The link.
         name: String,
-        /// Number of samples that follow none before.
+        /// Number of the cell in that line; `None` if the whole line is meant.
         count: usize,
         /// Number of all.
         measured: usize,
         /// Moments of the first ones.
         first: String,
     },
-    /// A column's unit is none of an angle or of a time.
-    #[error("column `{name}` is in `{unit}`, which is no unit of {quantity}")]
+    /// The unit of a column is not a unit of angles, or not one of times.
+    #[error("column `{name}` is in `{unit}`, which is not a unit of {quantity}")]
     Unit {
         /// The column.
         name: String,
@@ -268,17 +319,34 @@ pub enum ReadErrorKind {
     },
 }
 
+/// Lists the units that the values could have.
+fn angle_units(counts: Option<u32>) -> String {
+    match counts {
+        Some(counts) => format!("degrees, radians or counts of an encoder ({counts} a turn)"),
+        None => "degrees or radians".to_owned(),
+    }
+}
+
 impl ReadErrorKind {
     pub(crate) fn at(self, path: impl Into<PathBuf>, place: Option<Place>) -> ReadError {
         ReadError {
             path: path.into(),
+            sheet: None,
             place,
             kind: Box::new(self),
         }
     }
 }
 
-/// What helps where a time stands in two rows.
+/// Describes how several recordings are arranged in one table.
+fn succession(column: Option<&str>) -> String {
+    match column {
+        Some(column) => format!("tracks, numbered by `{column}`"),
+        None => "recordings behind each other".to_owned(),
+    }
+}
+
+/// Returns the remedy if two rows have the same time.
 fn repeated(previous: f64, time: f64) -> &'static str {
     if time == previous {
         "; say which row of one time counts, the first or the last"

@@ -1,4 +1,5 @@
-//! Series that changed places in some pictures, as trackers confuse two dots.
+//! Correction of series that are exchanged in some pictures, because a tracker has confused two
+//! points.
 
 use std::f64::consts::TAU;
 use std::ops::Range;
@@ -6,15 +7,15 @@ use std::ops::Range;
 use super::finding::{Basis, Finding, counted, listed, moments};
 use super::timing::median;
 
-/// A place that moves.
-pub(crate) trait Place: Copy {
-    /// Sum of this place and a part of another.
+/// A moving position: an angle, or a point in the plane.
+pub(crate) trait Position: Copy {
+    /// Returns the sum of this position and `part` times `other`.
     fn plus(self, part: f64, other: Self) -> Self;
-    /// Length of the way from the origin.
+    /// Returns the distance of the position from the origin.
     fn length(self) -> f64;
 }
 
-impl Place for [f64; 2] {
+impl Position for [f64; 2] {
     fn plus(self, part: f64, other: Self) -> Self {
         [self[0] + part * other[0], self[1] + part * other[1]]
     }
@@ -28,7 +29,7 @@ impl Place for [f64; 2] {
 #[derive(Clone, Copy)]
 pub(crate) struct Angle(pub(crate) f64);
 
-impl Place for Angle {
+impl Position for Angle {
     fn plus(self, part: f64, other: Self) -> Self {
         let wrapped = |angle: f64| angle - (angle / TAU).round() * TAU;
         Self(wrapped(self.0 + part * wrapped(other.0)))
@@ -39,14 +40,15 @@ impl Place for Angle {
     }
 }
 
-/// Two series and the rows in which each had the places of the other.
+/// Two series, and the rows in which they were exchanged.
 pub(crate) struct Exchange {
     pub(crate) series: [usize; 2],
     pub(crate) rows: Vec<usize>,
 }
 
-/// Findings of all exchanges; those that last to an end of the record are doubtful.
-pub(crate) fn told(
+/// Returns the findings about all exchanges; those that last to the start or the end of the record
+/// are doubtful.
+pub(crate) fn exchange_findings(
     exchanges: &[Exchange],
     names: &[&str],
     times: &[f64],
@@ -63,7 +65,7 @@ pub(crate) fn told(
         });
         each.collect::<Vec<String>>()
     };
-    let told = [
+    let reported = [
         (Basis::Marked, of(false), "exchanged, and changed back"),
         (
             Basis::Doubtful,
@@ -72,29 +74,31 @@ pub(crate) fn told(
              the one that is exchanged",
         ),
     ];
-    let told = told.into_iter().filter(|(_, each, _)| !each.is_empty());
-    told.map(|(basis, each, how)| {
+    let reported = reported.into_iter().filter(|(_, each, _)| !each.is_empty());
+    reported.map(|(basis, each, how)| {
         Finding::new(basis, format!("{how}: {}", listed(each.into_iter())))
     })
 }
 
-/// Distances from where the places before lead, in usual ones, that are too far.
+/// Distance from the predicted position, relative to the usual distance, that counts as too far.
 const FAR: f64 = 6.0;
-/// Distances from there, in usual ones, that are small.
+/// Distance from the predicted position, relative to the usual distance, that counts as small.
 const QUIET: f64 = 1.5;
-/// Distances in those of the last rows likewise: a fast motion is no exchange.
+/// Distance from the predicted position, relative to the distances in the last rows, that counts as
+/// too far. It prevents a fast motion from being mistaken for an exchange.
 const FAR_OF_LATE: f64 = 3.0;
-/// An exchange brings the difference so many times as near.
+/// Factor by which exchanging two series must bring their difference closer to its prediction.
 const BETTER: f64 = 3.0;
-/// Rows in succession that are passed over before a series begins anew.
+/// Number of successive rows that may be skipped before tracking of a series restarts.
 const PASSED: usize = 3;
-/// Steps of so many intervals tell nothing of the next.
+/// Largest time step, in units of the usual interval, over which the next position is predicted.
 const NEAR: f64 = 4.5;
 
-/// Gives series their own values back where two of them changed places, from one row to any later
-/// one: then their difference changes its sign, and their sum goes on. Most rows are taken for right.
-/// `resolutions` are the steps in which places are written. Linear in the number of rows.
-pub(crate) fn mend<V: Copy, P: Place>(
+/// Finds and corrects exchanges of two series, which may last from one row to any later one. Where
+/// an exchange begins or ends, their difference changes its sign while their sum continues
+/// smoothly. It assumes that most rows are correct. `resolutions` are the steps to which positions
+/// are rounded. The effort is linear in the number of rows.
+pub(crate) fn mend<V: Copy, P: Position>(
     times: &[f64],
     interval: f64,
     resolutions: &[f64],
@@ -134,13 +138,13 @@ pub(crate) fn mend<V: Copy, P: Place>(
     exchanges
 }
 
-/// Places against time, and how far they usually are from where those before lead.
+/// Positions against time, and their usual distance from the positions predicted by earlier ones.
 struct Path<P> {
     places: Vec<Option<P>>,
     usual: f64,
 }
 
-impl<P: Place> Path<P> {
+impl<P: Position> Path<P> {
     fn new(times: &[f64], places: Vec<Option<P>>, floor: f64) -> Self {
         let bends = (2..times.len()).filter_map(|row| bend(times, row, |row| places[row]));
         let usual = median(bends.collect()).max(floor);
@@ -148,19 +152,20 @@ impl<P: Place> Path<P> {
     }
 }
 
-/// Distance of the place in a row from where those in the two rows before lead.
-fn bend<P: Place>(times: &[f64], row: usize, place: impl Fn(usize) -> Option<P>) -> Option<f64> {
+/// Returns the distance of the position in a row from the position predicted by the two rows
+/// before.
+fn bend<P: Position>(times: &[f64], row: usize, place: impl Fn(usize) -> Option<P>) -> Option<f64> {
     let at = |row: usize| Some((times[row], place(row)?));
     let expected = ahead(at(row - 2)?, at(row - 1)?, times[row]);
     Some(place(row)?.plus(-1.0, expected).length())
 }
 
-/// The place to which two places lead at a later time.
-fn ahead<P: Place>((start, from): (f64, P), (end, to): (f64, P), time: f64) -> P {
+/// Extrapolates two positions to a later time.
+fn ahead<P: Position>((start, from): (f64, P), (end, to): (f64, P), time: f64) -> P {
     to.plus((time - end) / (end - start), to.plus(-1.0, from))
 }
 
-/// Two series, as their difference and their sum.
+/// Two series, stored as their difference and their sum.
 struct Pair<'a, P> {
     times: &'a [f64],
     interval: f64,
@@ -168,8 +173,8 @@ struct Pair<'a, P> {
     sum: Path<P>,
 }
 
-impl<P: Place> Pair<'_, P> {
-    /// Rows in which the two changed places.
+impl<P: Position> Pair<'_, P> {
+    /// Returns the rows in which the two series are exchanged.
     fn exchanged(&self) -> Vec<usize> {
         let count = self.times.len();
         let Some(seed) = self.quiet_row() else {
@@ -194,7 +199,8 @@ impl<P: Place> Pair<'_, P> {
         rows
     }
 
-    /// The first row from which the difference, large enough for a sign, goes on evenly, as near to the middle as may be.
+    /// Returns the row nearest to the middle at which the difference continues smoothly and is so
+    /// large that its sign is clear.
     fn quiet_row(&self) -> Option<usize> {
         let Path { places, usual } = &self.difference;
         let is_quiet = |row: &usize| {
@@ -209,7 +215,8 @@ impl<P: Place> Pair<'_, P> {
             .or_else(|| (0..middle.min(last)).rev().find(is_quiet))
     }
 
-    /// Goes from row to row and finds where the difference changes its sign and nothing else does.
+    /// Goes through the rows and marks those at which the difference changes its sign while the sum
+    /// continues smoothly.
     fn follow(&self, rows: impl Iterator<Item = usize>, is_exchanged: &mut [bool]) {
         let mut differences = Tracker::new(self.interval, self.difference.usual);
         let mut sums = Tracker::new(self.interval, self.sum.usual);
@@ -225,7 +232,7 @@ impl<P: Place> Pair<'_, P> {
                 let goes_on = sums
                     .distance(time, sum)
                     .is_none_or(|distance| !sums.is_far(distance));
-                // Where either would do, the two are taken as they are.
+                // If both readings are possible, the rows stay as they are.
                 if let (Some(as_it_is), Some(changed)) = (as_it_is, changed) {
                     is_now = differences.is_far(as_it_is)
                         && (is_now || (goes_on && BETTER * changed <= as_it_is));
@@ -237,8 +244,9 @@ impl<P: Place> Pair<'_, P> {
         }
     }
 
-    /// Returns true if the difference with another sign in some rows is usually smooth at both ends of
-    /// these, and far less so as it is: that one place is expected is not enough in a fast motion.
+    /// Returns true if reversing the sign of the difference in these rows makes it as smooth as
+    /// usual at both ends, and if it is much less smooth without. In a fast motion, a single
+    /// position is not enough evidence.
     fn is_smoother(&self, rows: Range<usize>) -> bool {
         let Path { places, usual } = &self.difference;
         let as_it_is = |row: usize| places[row];
@@ -267,10 +275,10 @@ impl<P: Place> Pair<'_, P> {
     }
 }
 
-/// Distances that tell how fast a motion is of late.
+/// Number of most recent distances from which the speed of the motion is judged.
 const LATE: usize = 6;
 
-/// The last places that were as expected.
+/// The most recent positions that agreed with their predictions.
 struct Tracker<P> {
     interval: f64,
     usual: f64,
@@ -280,7 +288,7 @@ struct Tracker<P> {
     late: [f64; LATE],
 }
 
-impl<P: Place> Tracker<P> {
+impl<P: Position> Tracker<P> {
     fn new(interval: f64, usual: f64) -> Self {
         Self {
             interval,
@@ -292,7 +300,7 @@ impl<P: Place> Tracker<P> {
         }
     }
 
-    /// Distance of a place from the one that is expected; none where nothing is.
+    /// Returns the distance of a position from the predicted one; `None` if there is no prediction.
     fn distance(&self, time: f64, place: P) -> Option<f64> {
         let (last, before) = (self.last?, self.before?);
         let is_near = (time - last.0).abs() <= NEAR * self.interval;
@@ -304,7 +312,7 @@ impl<P: Place> Tracker<P> {
         distance > FAR * self.usual && distance > FAR_OF_LATE * late
     }
 
-    /// Goes on to a place, unless it is far from where it should be.
+    /// Adds a position, unless it is far from the predicted one.
     fn go_on(&mut self, time: f64, place: P) {
         let step = self.last.map(|last| (time - last.0).abs());
         let mut is_known = step.is_some_and(|step| step <= NEAR * self.interval);

@@ -1,19 +1,20 @@
-//! Findings of a reader about a file.
+//! Findings about a file that is read: statements about how it was interpreted.
 
 use core::fmt;
 
-/// Where a statement about a file comes from.
+/// Basis of a statement about a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Basis {
-    /// The caller said so.
+    /// The caller has specified it.
     Given,
     /// The file shows it.
     Detected,
-    /// Nothing says so; it is the usual case.
+    /// Nothing in the file shows it, but it is the usual case.
     Assumed,
-    /// Samples that were marked, or changed by whole turns.
+    /// The statement is about samples that were marked, or changed by whole turns.
     Marked,
-    /// It may be wrong, and much with it: the caller should look, and say so where he can.
+    /// It may be wrong, with large consequences: the caller should check it and specify it if
+    /// possible.
     Doubtful,
 }
 
@@ -29,12 +30,12 @@ impl fmt::Display for Basis {
     }
 }
 
-/// One statement about how a file was read, for the user to check.
+/// Statement about how a file was interpreted, which the user can check.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Finding {
-    /// Where it comes from.
+    /// The source of the statement.
     pub basis: Basis,
-    /// The statement.
+    /// The statement, as text.
     pub text: String,
 }
 
@@ -47,10 +48,10 @@ impl Finding {
     }
 }
 
-/// Things that a finding names before it counts the others.
+/// Number of items that a finding lists before it only counts the others.
 const NAMED: usize = 3;
 
-/// Lists the first things of many, and how many more there are.
+/// Lists the first of many items, and the number of the others.
 pub(crate) fn listed<T: fmt::Display>(things: impl ExactSizeIterator<Item = T>) -> String {
     let more = things.len().saturating_sub(NAMED);
     let named: Vec<String> = things.take(NAMED).map(|thing| thing.to_string()).collect();
@@ -60,7 +61,7 @@ pub(crate) fn listed<T: fmt::Display>(things: impl ExactSizeIterator<Item = T>) 
     }
 }
 
-/// A number of things in words: "1 jump", "2 jumps".
+/// Formats a number of things: "1 jump", "2 jumps".
 pub(crate) fn counted(count: usize, thing: &str) -> String {
     match count {
         1 => format!("1 {thing}"),
@@ -68,7 +69,7 @@ pub(crate) fn counted(count: usize, thing: &str) -> String {
     }
 }
 
-/// A number to so many digits, without zeros at its end.
+/// Formats a number with up to `digits` digits, without trailing zeros.
 pub(crate) fn rounded(value: f64, digits: i32) -> String {
     let before = value.abs().log10().floor();
     let decimals = if before.is_finite() {
@@ -83,13 +84,13 @@ pub(crate) fn rounded(value: f64, digits: i32) -> String {
     }
 }
 
-/// A moment, as exactly as it takes to tell samples of an interval apart.
+/// Formats a time (s) with as many digits as distinguish samples that are `interval` (s) apart.
 pub(crate) fn moment(time: f64, interval: f64) -> String {
     let digits = 3.0 + (time / interval).abs().log10().floor().max(0.0);
     format!("{} s", rounded(time, digits as i32))
 }
 
-/// The first moments of some rows, and how many more there are.
+/// Lists the times of the first few rows, followed by the number of the remaining rows.
 pub(crate) fn moments(times: &[f64], rows: &[usize], interval: f64) -> String {
     listed(rows.iter().map(|&row| moment(times[row], interval)))
 }

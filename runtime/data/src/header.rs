@@ -1,21 +1,24 @@
-//! Lines above the numbers: names, units, tracks.
+//! Reading of the header: the lines above the numbers, with names, units and tracks.
 
-use super::error::{Place, ReadErrorKind};
-use super::format::TextLine;
+use std::collections::{BTreeMap, BTreeSet};
+
+use super::error::ReadErrorKind;
+use super::format::{Delimiter, TextLine, used};
 use super::names::is_time;
+use super::place::Place;
 use super::track::{Track, tracks};
 use super::units::{Unit, bare};
 use super::write::Column;
 
-/// Programs whose tables are known by their headers.
+/// Kind of a table, recognised by its header.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FileKind {
-    /// Columns under one row of names, or under none.
+    /// Plain table, with one row of column names or without names.
     Wide,
-    /// A text export of Tracker: a row of tracks above a row of quantities.
+    /// Text export of Tracker: a row of tracks above a row of quantities.
     Tracker,
-    /// DeepLabCut's table: rows of the scorer, of the individuals where there are several, of
-    /// body parts and of coordinates.
+    /// Table of DeepLabCut: rows of the scorer, of the individuals (if there are several), of body
+    /// parts and of coordinates.
     DeepLabCut,
 }
 
@@ -24,14 +27,16 @@ pub enum FileKind {
 pub(crate) struct Header {
     pub(crate) kind: FileKind,
     pub(crate) columns: Vec<Column>,
-    /// The names as they stand in the file, units included.
+    /// Names of the columns as in the file, including units.
     pub(crate) written: Vec<String>,
     pub(crate) tracks: Vec<Track>,
     /// Number of lines above the names.
     pub(crate) preamble: usize,
+    /// Separator of the names, if it differs from that of the rows.
+    pub(crate) delimiter: Option<Delimiter>,
 }
 
-/// Why a header is refused, and where.
+/// Reason why a header is rejected, and the position.
 #[derive(Debug)]
 pub(crate) struct Refused {
     pub(crate) kind: Box<ReadErrorKind>,
@@ -48,10 +53,28 @@ impl Refused {
 }
 
 impl Header {
-    /// Reads the lines above the first row of `width` cells with numbers.
-    pub(crate) fn read(above: &[TextLine], width: usize) -> Result<Self, Refused> {
+    /// Reads the header: the lines above the first row of numbers, which has `width` cells
+    /// separated by `delimiter`.
+    pub(crate) fn read(
+        above: &[TextLine],
+        width: usize,
+        delimiter: Delimiter,
+    ) -> Result<Self, Refused> {
         let above = above.iter().filter(|line| !is_note_on_format(line));
-        let above: &[TextLine] = &above.map(trimmed).collect::<Vec<_>>();
+        let mut above: Vec<TextLine> = above.map(trimmed).collect();
+        let is_apart = |names: &&mut TextLine| {
+            let mut but_last = names.cells.iter().take(width.saturating_sub(1));
+            names.cells.len() != width
+                || delimiter == Delimiter::Spaces && but_last.all(|name| name.ends_with([',', ';']))
+        };
+        let names = above.last_mut().filter(is_apart);
+        let own = names.and_then(|names| separate(names, width, delimiter));
+        let mut header = Self::of_lines(&above, width)?;
+        header.delimiter = own;
+        Ok(header)
+    }
+
+    fn of_lines(above: &[TextLine], width: usize) -> Result<Self, Refused> {
         let wide = |names: Vec<(Column, String)>, preamble: &[TextLine]| {
             Self::new(FileKind::Wide, names, preamble.len())
         };
@@ -91,21 +114,24 @@ impl Header {
         }
     }
 
-    /// Columns with their names as they are written. Where two names differ in their units
-    /// alone, the units are parts of the names.
+    /// Creates the header from columns with their names as in the file. If two names differ only in
+    /// their units, the units are kept as parts of the names.
     fn new(kind: FileKind, named: Vec<(Column, String)>, preamble: usize) -> Self {
         let (mut columns, written): (Vec<Column>, Vec<String>) = named.into_iter().unzip();
-        let names: Vec<String> = columns.iter().map(|column| column.name.clone()).collect();
+        // The texts under which each name is written.
+        let mut texts: BTreeMap<String, BTreeSet<&str>> = BTreeMap::new();
+        for (column, text) in columns.iter().zip(&written) {
+            texts.entry(column.name.clone()).or_default().insert(text);
+        }
+        let mut has_nameless = false;
         for (index, column) in columns.iter_mut().enumerate() {
-            let mut others = names.iter().zip(&written).enumerate();
-            let is_shared = others.any(|(other, (name, text))| {
-                other != index && *name == names[index] && *text != written[index]
-            });
-            if is_shared {
+            let is_nameless = column.name.is_empty();
+            if texts.get(&column.name).is_some_and(|texts| texts.len() > 1) {
                 column.name.clone_from(&written[index]);
-            } else if column.name.is_empty() && names[..index].iter().any(String::is_empty) {
+            } else if is_nameless && has_nameless {
                 column.name = format!("column {}", index + 1);
             }
+            has_nameless |= is_nameless;
         }
         Self {
             kind,
@@ -113,10 +139,12 @@ impl Header {
             columns,
             written,
             preamble,
+            delimiter: None,
         }
     }
 
-    /// A name stands above the first of its track's columns; the time has none.
+    /// Reads the header of Tracker. A name is above the first column of its track; the time has no
+    /// name.
     fn tracker(tracks: &TextLine, quantities: &TextLine, preamble: usize) -> Self {
         let mut names = tracks.cells.iter().filter(|cell| !cell.is_empty());
         let single = names.next().filter(|_| names.next().is_none());
@@ -142,8 +170,9 @@ impl Header {
         Self::new(FileKind::Tracker, named.collect(), preamble)
     }
 
-    /// Rows `scorer`, `individuals` (where there are several), `bodyparts`, `coords`. Columns
-    /// without a coordinate name folders, but for the last of them, which is the frame's.
+    /// Reads the header of DeepLabCut, with rows `scorer`, `individuals` (if there are several),
+    /// `bodyparts`, `coords`. Columns without a coordinate name folders, except the last of them,
+    /// which is the frame.
     fn deep_lab_cut(above: &[TextLine], width: usize, preamble: usize) -> Result<Self, Refused> {
         let row = |word: &str| above.iter().find(|line| starts(line, word));
         let needed = |word: &str| {
@@ -183,16 +212,14 @@ impl Header {
     }
 
     fn check_names(&self, above: &[TextLine]) -> Result<(), Refused> {
+        let mut names = BTreeSet::new();
         for (index, column) in self.columns.iter().enumerate() {
             let name = &column.name;
             let place = || {
                 let line = above.last().map_or(1, |line| line.number);
                 Some(Place::cell(line, index, None))
             };
-            if self.columns[..index]
-                .iter()
-                .any(|other| other.name == *name)
-            {
+            if !names.insert(name) {
                 let name = name.clone();
                 return Err(Refused::new(
                     ReadErrorKind::DuplicateColumn { name },
@@ -204,10 +231,24 @@ impl Header {
     }
 }
 
-/// A line without empty cells at its end, nor the mark of a comment alone at its start.
+/// Splits a line of names at a separator other than that of the rows, if this gives one name per
+/// column. Returns that separator.
+fn separate(names: &mut TextLine, width: usize, delimiter: Delimiter) -> Option<Delimiter> {
+    let text = names.cells.join(delimiter.text());
+    let is_name = |name: &str| !name.starts_with(|c: char| c.is_ascii_digit());
+    for other in Delimiter::ALL.into_iter().filter(|own| *own != delimiter) {
+        let cells = other.split(&text);
+        if cells.len() == width && cells.iter().all(|name| !name.is_empty() && is_name(name)) {
+            names.cells = cells.into_iter().map(str::to_owned).collect();
+            return Some(other);
+        }
+    }
+    None
+}
+
+/// Returns a line without empty cells at its end, and without a lone comment mark at its start.
 fn trimmed(line: &TextLine) -> TextLine {
-    let used = line.cells.iter().rposition(|cell| !cell.is_empty());
-    let cells = &line.cells[..used.map_or(0, |last| last + 1)];
+    let cells = &line.cells[..used(&line.cells)];
     let skip = usize::from(cells.first().is_some_and(|cell| cell == "#" || cell == "%"));
     TextLine {
         number: line.number,
@@ -228,8 +269,9 @@ fn starts(line: &TextLine, word: &str) -> bool {
         .is_some_and(|cell| cell.eq_ignore_ascii_case(word))
 }
 
-/// Tracks stand over quantities, of which the first is the time. A single name at the start
-/// of its line is a title, unless the coordinates of a point are below.
+/// Returns true if the lines are a header of Tracker: tracks above quantities, of which the first
+/// is the time. A single name at the start of its line is a title, unless the coordinates of a
+/// point are below it.
 fn is_tracker(tracks: &TextLine, quantities: &TextLine) -> bool {
     let Some((first, rest)) = quantities.cells.split_first() else {
         return false;
@@ -242,7 +284,7 @@ fn is_tracker(tracks: &TextLine, quantities: &TextLine) -> bool {
         && (tracks.cells[0].is_empty() || names == 1 && has("x") && has("y"))
 }
 
-/// Lines above the names that only say how the file is written: `sep=;`.
+/// Returns true for a line above the names that only describes the format: `sep=;`.
 fn is_note_on_format(line: &TextLine) -> bool {
     let first = line.cells.first().map_or("", String::as_str);
     first.to_ascii_lowercase().starts_with("sep=")
@@ -257,9 +299,9 @@ fn is_units(line: &TextLine) -> bool {
     cells.peek().is_some() && cells.all(|cell| is_unit(cell))
 }
 
-/// A name with its unit: `theta [rad]`, `theta (rad)`, `theta/rad`, `theta_rad`, `theta, rad`.
-/// Braces behind `_` are those of a subscript: `v_{x}` is `v_x`.
-fn column(text: &str) -> Column {
+/// Separates a name from its unit: `theta [rad]`, `theta (rad)`, `theta/rad`, `theta_rad`, `theta,
+/// rad`. Braces after `_` are those of a subscript: `v_{x}` is `v_x`.
+pub(crate) fn column(text: &str) -> Column {
     let text = text.trim().trim_start_matches(['#', '%']).trim();
     if let Some((name, rest)) = text.split_once("_{")
         && let Some((subscript, rest)) = rest.split_once('}')
@@ -292,8 +334,8 @@ fn column(text: &str) -> Column {
     Column::new(text, "")
 }
 
-/// Returns true for units that nobody takes for a part of a name: `x_m` is a name, `x_mm`
-/// one in millimetres; `theta_min` is the least one.
+/// Returns true for units that cannot be mistaken for a part of a name: `x_m` is a name, `x_mm` is
+/// one in millimetres; `theta_min` is a minimum.
 fn is_no_word(unit: &str) -> bool {
     let words = ["min", "turn", "turns", "rev", "revs"];
     (unit.chars().count() > 1 || unit == "°") && !words.contains(&unit)

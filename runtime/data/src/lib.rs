@@ -1,13 +1,13 @@
-//! Series of pendulums on disk: computed ones written, measured ones read.
+//! Files of time series of pendulums: writing of computed series, reading of measured ones.
 //!
 //! A [`CsvWriter`] writes rows of [`Cell`]s under [`Column`]s with units.
 //!
-//! A file of measurements becomes angles in two steps, each of which says what it
-//! found and what it assumed ([`Finding`]):
+//! A file of measurements is converted to angles in two steps; each reports what it detected and
+//! what it assumed ([`Finding`]):
 //!
 //! 1. [`Table::read`] makes out how the file is written: delimiter, decimal mark, header,
-//!    units, whether Tracker or DeepLabCut wrote it. A cell that is no number is told where
-//!    its column is used.
+//!    units, whether Tracker or DeepLabCut wrote it. A cell that is not a number is reported where
+//!    its column is used. With the feature `spreadsheets` it reads a sheet of a workbook, too.
 //! 2. [`AngleColumns`] or [`Markers`] take the angles out of it, as a [`Recording`]: in
 //!    radians from the vertical, over seconds, without jumps of a turn, outliers marked;
 //!    [`read_angles`] chooses between them.
@@ -38,18 +38,23 @@ mod angle_unit;
 mod angles;
 mod cell;
 mod circle;
+mod clock;
 mod error;
 mod exchange;
 mod finding;
 mod format;
 mod header;
+mod leaps;
 mod markers;
 mod names;
 mod outliers;
+mod place;
 mod points;
 mod recording;
 mod rows;
 mod sample;
+mod spreadsheet;
+mod succession;
 mod table;
 mod text;
 mod timing;
@@ -61,15 +66,18 @@ mod write;
 pub use angle_source::read_angles;
 pub use angles::{AngleColumns, AngleZero};
 pub use cell::DecimalMark;
-pub use error::{Place, ReadError, ReadErrorKind};
+pub use clock::Clock;
+pub use error::{ReadError, ReadErrorKind};
 pub use finding::{Basis, Finding};
 pub use format::Delimiter;
 pub use header::FileKind;
 pub use markers::{Gravity, LinkMarkers, Markers};
+pub use place::{Place, Sheet};
 pub use recording::{LinkSeries, Recording};
 pub use sample::Sample;
+pub use succession::Repeated;
 pub use table::{Table, TableOptions};
-pub use timing::{Clock, Gap, Repeated, Timing};
+pub use timing::{Gap, Timing};
 pub use track::Track;
 pub use units::AngleUnit;
 pub use write::{Cell, Column, CsvError, CsvWriter};

@@ -1,61 +1,62 @@
-//! Angles from points that a camera followed.
+//! Angles computed from points that a camera tracked.
 
 use std::iter;
 
+use super::clock::Clock;
 use super::error::{ReadError, ReadErrorKind};
 use super::finding::{Basis, Finding, counted, listed, rounded};
 use super::header::FileKind;
-use super::points::{Arrow, Places, Point};
-use super::recording::{LinkSeries, Recording};
+use super::points::{Arrow, Point, TrackPositions};
+use super::recording::{LinkSeries, Recording, check_memory, check_width};
 use super::sample::Sample;
 use super::table::Table;
-use super::timing::{Clock, Times};
+use super::timing::Times;
 
-/// The two points by which a link is followed, by the names of their tracks.
+/// The two points by which a link is tracked, given by the names of their tracks.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct LinkMarkers {
-    /// The one nearer to the link's pivot; a place that does not move is `origin`, or `X,Y` in
+    /// The point nearer to the link's pivot. A point that does not move is `origin`, or `X,Y` in
     /// the units of the file.
     pub upper: String,
-    /// The one farther from it. At angle 0 it is right below the other.
+    /// The point farther from the pivot. At angle 0 it is directly below the other.
     pub lower: String,
 }
 
-/// Source of the direction of gravity in a picture.
+/// How the direction of gravity in a picture is determined.
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub enum Gravity {
-    /// The axis of y: the camera is level.
+    /// The y axis, if the camera is level.
     #[default]
     Axis,
-    /// A direction, in the units of the file: a plumb line in the picture.
+    /// A given direction, in the units of the file, such as that of a plumb line in the picture.
     Along([f64; 2]),
-    /// The mean direction of the first link. Good where it swings evenly about the vertical;
-    /// the error is the angle between that mean and the vertical.
+    /// The mean direction of the first link. This is accurate if the link swings evenly about the
+    /// vertical; the error is the angle between that mean and the vertical.
     FirstLink,
 }
 
-/// How angles follow from tracked points. A link's angle is that of the line from its upper
+/// How angles are computed from tracked points. A link's angle is that of the line from its upper
 /// to its lower marker, so that the scale of the picture does not matter.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Markers {
-    /// Where the times come from.
+    /// Source of the times.
     pub clock: Clock,
-    /// The links, in the order of the model; empty for one link for each two tracks, in the
-    /// order of the file, or for a chain from the pivot on where that is given.
+    /// The links, in the order of the model. If empty, each two tracks in the order of the file are
+    /// a link or, if a pivot is given, the tracks are a chain from the pivot.
     pub links: Vec<LinkMarkers>,
-    /// Place of the pivot that does not move, in the units of the file, where no track is at
-    /// it: each track in the order of the file ends a link, the first one at the pivot, each
-    /// other at the track before.
+    /// Position of the fixed pivot, in the units of the file, if no track is at it. Each track in
+    /// the order of the file ends a link, the first one at the pivot, each other at the track
+    /// before.
     pub pivot: Option<[f64; 2]>,
     /// Direction of gravity.
     pub gravity: Gravity,
-    /// True if y grows downwards, as rows of a picture do; without it so in DeepLabCut's
-    /// tables and not in others.
+    /// True if y increases downwards, as rows of a picture do. `None`: true for tables of
+    /// DeepLabCut, false for others.
     pub y_down: Option<bool>,
-    /// True if positive angles turn the other way than the model's, in which a lower marker
-    /// to the right is at a positive angle.
+    /// True if positive angles turn in the direction opposite to the model's, in which a lower
+    /// marker to the right is at a positive angle.
     pub mirrored: bool,
-    /// Smallest likelihood of both points with which an angle is used.
+    /// Smallest likelihood of both points at which an angle is used.
     pub likelihood: f64,
     /// As that of [`AngleColumns`](super::AngleColumns::outliers).
     pub outliers: Option<f64>,
@@ -77,7 +78,7 @@ impl Default for Markers {
 }
 
 impl Markers {
-    /// Takes the angles out of a table of tracked points.
+    /// Computes the angles from a table of tracked points.
     ///
     /// # Errors
     /// [`ReadError`]: tracks that do not exist, a time that does not ascend, frames without a
@@ -90,7 +91,8 @@ impl Markers {
         let mut findings = Vec::new();
         let times = Times::read(table, &self.clock)?;
         let pairs = self.pairs(table, &mut findings)?;
-        let mut places = Places::read(table, &pairs)?;
+        check_memory(table, 2 * pairs.len())?;
+        let mut places = TrackPositions::read(table, &pairs)?;
         if self.outliers.is_some() {
             findings.extend(places.mend(&times));
         }
@@ -144,7 +146,7 @@ impl Markers {
         }
         if !self.links.is_empty() {
             if self.pivot.is_some() {
-                let what = "the pivot beside named points; a link from it is `X,Y` to a point";
+                let what = "the pivot next to named points; a link from it is `X,Y` to a point";
                 return refused(what.to_owned());
             }
             let mut pairs = Vec::with_capacity(self.links.len());
@@ -159,6 +161,7 @@ impl Markers {
             }
             return Ok(pairs);
         }
+        check_width(table, table.tracks().len(), "tracks")?;
         let tracks: Vec<Point<'a>> = table.tracks().iter().map(Point::Track).collect();
         let pairs: Vec<[Point<'a>; 2]> = match (self.pivot, tracks.as_chunks::<2>()) {
             (Some(place), _) if !tracks.is_empty() => {
@@ -183,7 +186,7 @@ impl Markers {
         Ok(pairs)
     }
 
-    /// Returns true if something is said that points alone have.
+    /// Returns true if an option is set that applies to points only.
     pub(crate) fn is_asked_for(&self) -> bool {
         !self.links.is_empty()
             || self.pivot.is_some()
@@ -191,8 +194,8 @@ impl Markers {
             || self.gravity != Gravity::Axis
     }
 
-    /// Direction of gravity in the file, of length 1, and the direction to its right as a
-    /// person sees the picture.
+    /// Returns the direction of gravity in the file, as a unit vector, and the direction to its
+    /// right as seen in the picture.
     fn down(
         &self,
         table: &Table,
@@ -259,7 +262,7 @@ impl Markers {
     }
 }
 
-/// Sum of the arrows, each taken of length 1.
+/// Returns the sum of the directions of the arrows, each of length 1.
 fn mean_direction(arrows: &[Arrow]) -> [f64; 2] {
     let mut sum = [0.0; 2];
     for ([x, y], _) in arrows.iter().flatten() {

@@ -1,19 +1,19 @@
-//! What the name of a column says about it.
+//! Meanings of columns, derived from their names.
 
 use super::units::{FRAME, Unit};
 use super::write::Column;
 
-/// What a column holds, by its unit and its name.
+/// Meaning of a column, derived from its unit and its name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Meaning {
     Time,
     Frame,
     Angle,
-    /// Something of which the unit says that it is no angle.
+    /// The unit shows that it is not an angle.
     OtherUnit,
-    /// Something of which the name says that it is no angle: what it is.
+    /// The name shows that it is not an angle but this quantity.
     OtherName(&'static str),
-    /// Neither says anything.
+    /// Neither the unit nor the name shows a meaning.
     Unsaid,
 }
 
@@ -94,8 +94,9 @@ const OTHERS: [(&str, &[&str]); 9] = [
     ("a score", &["likelihood", "score", "confidence"]),
 ];
 
-/// Letters that say something beside others only, an acceleration beside a velocity, a rate
-/// or an energy beside an angle; and the letter with which they are names in a row.
+/// Letters that have a meaning only if another column exists, as an acceleration next to a
+/// velocity, or a rate or an energy next to an angle; and the letter with which they are merely
+/// consecutive names.
 const LETTERS: [(&str, &str, &str); 5] = [
     ("a", ACCELERATION, "b"),
     ("w", VELOCITY, "u"),
@@ -104,7 +105,8 @@ const LETTERS: [(&str, &str, &str); 5] = [
     ("f", FORCE, "g"),
 ];
 
-/// Words of a name in small letters, without the numbers behind them; `jointVel` are two.
+/// Returns the words of a name in lower case, without numbers at their ends; `jointVel` is two
+/// words.
 pub(super) fn words(name: &str) -> Vec<String> {
     let mut spaced = String::with_capacity(name.len());
     let mut before = ' ';
@@ -123,13 +125,14 @@ pub(super) fn words(name: &str) -> Vec<String> {
     words.filter(|word| !word.is_empty()).collect()
 }
 
-/// What a word says: the rate of an angle is one as well, `dtheta`, `theta_dot`.
+/// Returns the quantity, other than an angle, that the words name. Rates of angles are such
+/// quantities: `dtheta`, `theta_dot`.
 fn other(words: &[String]) -> Option<&'static str> {
     let is_angle = |word: &str| ANGLE.contains(&word);
     let last = words.len().wrapping_sub(1);
     for (index, word) in words.iter().enumerate() {
         for (quantity, names) in OTHERS {
-            // A single letter stands before a name or behind it.
+            // A single letter must be the first or the last word.
             let is_whole = word.chars().count() > 1 || index == 0 || index == last;
             if is_whole && names.contains(&word.as_str()) {
                 return Some(quantity);
@@ -149,7 +152,7 @@ fn other(words: &[String]) -> Option<&'static str> {
 }
 
 impl Meaning {
-    /// The meaning of a column among others.
+    /// Returns the meaning of a column in a table with the columns `all`.
     pub(crate) fn of(column: &Column, all: &[Column]) -> Self {
         if is_frame(column) {
             return Self::Frame;
@@ -185,9 +188,9 @@ impl Meaning {
     }
 }
 
-/// Returns true for names of the time.
+/// Returns true if a name means time.
 pub(crate) fn is_time(name: &str) -> bool {
-    const TIMES: [&str; 17] = [
+    const TIMES: [&str; 19] = [
         "t",
         "time",
         "times",
@@ -205,12 +208,14 @@ pub(crate) fn is_time(name: &str) -> bool {
         "timestamps",
         "seconds",
         "elapsed",
+        "millis",
+        "micros",
     ];
     let name = name.trim().to_lowercase();
     TIMES.contains(&name.as_str()) || words(&name).last().is_some_and(|word| word == "time")
 }
 
-/// Returns true for a column that counts frames.
+/// Returns true if a column counts frames.
 pub(crate) fn is_frame(column: &Column) -> bool {
     if column.unit == FRAME {
         return true;
@@ -226,17 +231,17 @@ pub(crate) fn is_frame(column: &Column) -> bool {
     COUNTS.contains(&name.as_str()) || is_numbered
 }
 
-/// A name but for what hardly tells names apart: `left_a` is `left a`.
+/// Returns a name without characters that rarely distinguish names: `left_a` becomes `left a`.
 pub(crate) fn plain(name: &str) -> String {
     let apart = name.split([' ', '_']).filter(|part| !part.is_empty());
     apart.collect::<Vec<_>>().join(" ")
 }
 
-/// The name of a point of which a single one is followed.
+/// Name of the point in tables with only one tracked point.
 const SINGLE: &str = "point";
 
-/// The point and the axis (`x`, `y`, or `likelihood`) of a coordinate: `NAME x`, `NAME_x`,
-/// `NAME.X`, `x_NAME`, `x1`, `p1x`, `nameX`, or `x` alone.
+/// Returns the point and the axis (`x`, `y` or `likelihood`) of a column with coordinates, if its
+/// name has one of the forms `NAME x`, `NAME_x`, `NAME.X`, `x_NAME`, `x1`, `p1x`, `nameX`, or `x`.
 pub(super) fn coordinate(name: &str) -> Option<(String, &'static str)> {
     const AXES: [(&str, &str); 5] = [
         ("x", "x"),
@@ -274,16 +279,17 @@ pub(super) fn coordinate(name: &str) -> Option<(String, &'static str)> {
     None
 }
 
-/// Names in sentences, the first of many.
+/// Returns names in quotation marks for a sentence: the first of many, and the number of the
+/// others.
 pub(crate) fn quoted(names: &[impl AsRef<str>]) -> String {
     const MOST: usize = 8;
-    let mut told: Vec<String> = names
+    let mut reported: Vec<String> = names
         .iter()
         .take(MOST)
         .map(|name| format!("`{}`", name.as_ref()))
         .collect();
     if names.len() > MOST {
-        told.push(format!("and {} more", names.len() - MOST));
+        reported.push(format!("and {} more", names.len() - MOST));
     }
-    told.join(", ")
+    reported.join(", ")
 }

@@ -1,12 +1,11 @@
-//! Samples that do not fit their neighbours.
+//! Detection of outliers: samples that do not fit to their neighbours.
 
 use super::sample::Sample;
 use super::timing::{median, quantile};
 use super::turns::Turns;
 
-/// Offsets of the neighbours whose polynomials tell what a sample should be. A bad sample
-/// deviates from all of them; a good one beside it, and one of a fast motion, agrees with
-/// some.
+/// Offsets of the neighbours by whose polynomials a sample is predicted. A bad sample deviates from
+/// all predictions; a good one agrees with some, even if a neighbour is bad or the motion is fast.
 const NEIGHBOURS: [&[isize]; 5] = [
     &[-2, -1, 1, 2],
     &[-3, -2, 2, 3],
@@ -14,19 +13,21 @@ const NEIGHBOURS: [&[isize]; 5] = [
     &[-3, -2, -1],
     &[1, 2, 3],
 ];
-/// Samples on each side whose deviations are the usual ones there.
+/// Number of samples on each side from which the usual deviation is computed.
 const WINDOW: usize = 12;
-/// Samples on each side that are left out of those.
-const OWN: usize = 2;
-/// Median of |x| of a normal distribution of deviation 1, inverted.
+/// Number of nearest samples on each side that are excluded from it.
+const EXCLUDED: usize = 2;
+/// Inverse of the median of |x| for a normal distribution with standard deviation 1.
 const NORMAL: f64 = 1.4826;
-/// Standard deviation of what is lost by rounding to whole numbers.
+/// Standard deviation of the error of rounding to whole numbers.
 const ROUNDING: f64 = 0.288_675;
-/// Largest part of a record that can be called exceptional, and the number that can be in any.
+/// Largest fraction of a record that can count as exceptional, and the number of samples that can
+/// do so in any record.
 const LARGEST_PART: f64 = 0.05;
 pub(crate) const FEW: usize = 5;
 
-/// Returns true if so many samples of a record cannot be exceptions, few of a long one aside.
+/// Returns true if this many samples of a record are too many to be exceptions; `few` are always
+/// accepted.
 pub(crate) fn are_many(wrong: usize, of: usize, few: usize) -> bool {
     wrong > few && wrong as f64 > LARGEST_PART * of as f64
 }
@@ -35,14 +36,14 @@ pub(crate) fn are_many(wrong: usize, of: usize, few: usize) -> bool {
 pub(crate) enum Marked {
     /// These rows.
     Rows(Vec<usize>),
-    /// None: so many would be no exceptions.
+    /// None were marked, because this many would not be exceptions.
     TooMany(usize),
 }
 
-/// Marks measured samples whose deviation from their neighbours is more than `threshold`
-/// times the usual one, of the record and of the surroundings, and those that are far from all
-/// others whatever their turns. A usual deviation is at least that of rounding to the `resolution`.
-/// Linear in their number.
+/// Marks measured samples as outliers: those whose deviation from their neighbours is more than
+/// `threshold` times the usual deviation, both of the record and of the surroundings, and those
+/// that are far from all others for any number of turns. The usual deviation is at least that of
+/// rounding to the `resolution`. Linear in the number of samples.
 pub(crate) fn mark(
     times: &[f64],
     samples: &mut [Sample],
@@ -59,8 +60,8 @@ pub(crate) fn mark(
         .collect();
     let own = |at: usize| deviation(&points, points[at], [at.checked_sub(1), Some(at + 1)]);
     let deviations: Vec<f64> = (0..points.len()).map(own).collect();
-    let floor = ROUNDING * resolution;
-    let all = (NORMAL * median(deviations.clone())).max(floor);
+    // The usual deviation of the record, at least that of rounding.
+    let all = (NORMAL * median(deviations.clone())).max(ROUNDING * resolution);
     let mut rows = Vec::new();
     let mut measured = 0;
     let mut next = 0;
@@ -79,7 +80,7 @@ pub(crate) fn mark(
             ),
         };
         let is_outlier = turns.strays.binary_search(&row).is_ok()
-            || (size > threshold * all && size > threshold * around(&deviations, next).max(floor));
+            || size > threshold * all.max(around(&deviations, next));
         if is_outlier {
             rows.push(row);
         }
@@ -96,8 +97,9 @@ pub(crate) fn mark(
     Marked::Rows(rows)
 }
 
-/// Smallest distance of a point from the polynomials through its neighbours, of which those next to
-/// it before and behind are given; 0 where fewer than two of them tell.
+/// Returns the smallest distance of a point from the polynomials through its neighbours; the
+/// indices of the nearest neighbours before and after it are given. 0 if fewer than two neighbours
+/// exist.
 fn deviation(
     points: &[[f64; 2]],
     [time, value]: [f64; 2],
@@ -120,7 +122,7 @@ fn deviation(
     if count < 2 { 0.0 } else { smallest }
 }
 
-/// The polynomial through points, at a time (Lagrange's form).
+/// Returns the value at a time of the polynomial through some points (Lagrange's form).
 fn interpolated(nodes: &[[f64; 2]], time: f64) -> f64 {
     let weighted = nodes.iter().enumerate().map(|(own, [at, value])| {
         let others = nodes.iter().enumerate().filter(|(other, _)| *other != own);
@@ -132,15 +134,16 @@ fn interpolated(nodes: &[[f64; 2]], time: f64) -> f64 {
     weighted.sum()
 }
 
-/// The deviation that nine of ten samples around one stay below.
+/// Returns the 90th percentile of the deviations of the samples around one.
 fn around(deviations: &[f64], at: usize) -> f64 {
     let window = at.saturating_sub(WINDOW)..(at + WINDOW + 1).min(deviations.len());
-    let others = window.filter(|other| other.abs_diff(at) > OWN);
+    let others = window.filter(|other| other.abs_diff(at) > EXCLUDED);
     quantile(others.map(|other| deviations[other]).collect(), 0.9)
 }
 
-/// The step in which values are written or counted: the smallest one between any two, if it is found
-/// more often than by chance; else 0.
+/// Returns the step to which values are rounded: the smallest difference between two values, if it
+/// occurs more often than by chance; otherwise 0. If many samples have the same value, as at rest,
+/// a difference counts as often as the rarer of its two values occurs.
 pub(crate) fn resolution(values: impl Iterator<Item = f64>) -> f64 {
     const OFTEN: usize = 3;
     const EQUAL: f64 = 1e-3;
@@ -149,11 +152,19 @@ pub(crate) fn resolution(values: impl Iterator<Item = f64>) -> f64 {
     let largest = values
         .iter()
         .fold(0.0_f64, |most, value| most.max(value.abs()));
-    let steps = || values.windows(2).map(|pair| pair[1] - pair[0]);
-    let steps = || steps().filter(|step| *step > 1e-12 * largest);
-    let smallest = steps().fold(f64::INFINITY, f64::min);
-    let often = steps()
-        .filter(|step| *step <= (1.0 + EQUAL) * smallest)
-        .count();
+    // Values, each with the number of samples that have it.
+    let mut levels: Vec<(f64, usize)> = Vec::new();
+    for value in values {
+        match levels.last_mut() {
+            Some((level, count)) if value - *level <= 1e-12 * largest => *count += 1,
+            _ => levels.push((value, 1)),
+        }
+    }
+    let steps = || levels.windows(2).map(|pair| (pair[1].0 - pair[0].0, pair));
+    let smallest = steps().fold(f64::INFINITY, |least, (step, _)| least.min(step));
+    let often: usize = steps()
+        .filter(|(step, _)| *step <= (1.0 + EQUAL) * smallest)
+        .map(|(_, pair)| pair[0].1.min(pair[1].1))
+        .sum();
     if often >= OFTEN { smallest } else { 0.0 }
 }

@@ -1,4 +1,4 @@
-//! Ends of links: points that were tracked, and places that do not move.
+//! End points of links: tracked points, and points that do not move.
 
 use super::error::{ReadError, ReadErrorKind};
 use super::exchange;
@@ -8,12 +8,12 @@ use super::table::Table;
 use super::timing::Times;
 use super::track::Track;
 
-/// Coordinates and likelihood.
+/// Coordinates of a point and its likelihood.
 type Dot = ([f64; 2], f64);
-/// A vector from marker to marker with the smaller likelihood of the two.
+/// Vector between two markers, with the smaller of their likelihoods; `None` if one is missing.
 pub(crate) type Arrow = Option<Dot>;
 
-/// An end of a link: a track, or a place that does not move.
+/// End point of a link: a tracked point, or a point that does not move.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Point<'a> {
     Track(&'a Track),
@@ -21,7 +21,7 @@ pub(crate) enum Point<'a> {
 }
 
 impl<'a> Point<'a> {
-    /// The track of that name, or the place that it gives.
+    /// Returns the track with this name, or the fixed point that the text describes.
     pub(crate) fn named(table: &'a Table, name: &str) -> Result<Self, ReadError> {
         match (table.track(name), place(name)) {
             (Err(_), Some(place)) => Ok(Self::Fixed(place)),
@@ -38,7 +38,7 @@ impl<'a> Point<'a> {
     }
 }
 
-/// A place as text: `origin`, or `X,Y`.
+/// Parses a fixed point: `origin`, or `X,Y`.
 fn place(text: &str) -> Option<[f64; 2]> {
     let number = |part: &str| part.trim().parse().ok().filter(|x: &f64| x.is_finite());
     match text.split_once(',') {
@@ -47,15 +47,15 @@ fn place(text: &str) -> Option<[f64; 2]> {
     }
 }
 
-/// Where the tracks of some links are in every row.
-pub(crate) struct Places<'a> {
+/// Positions of the tracks of some links in all rows.
+pub(crate) struct TrackPositions<'a> {
     tracks: Vec<&'a Track>,
     dots: Vec<Vec<Option<Dot>>>,
-    /// The steps in which their coordinates are written.
+    /// Steps to which the coordinates of each track are rounded.
     steps: Vec<f64>,
 }
 
-impl<'a> Places<'a> {
+impl<'a> TrackPositions<'a> {
     pub(crate) fn read(table: &Table, pairs: &[[Point<'a>; 2]]) -> Result<Self, ReadError> {
         let tracks = pairs.iter().flatten().filter_map(|point| match point {
             Point::Track(track) => Some(*track),
@@ -73,7 +73,7 @@ impl<'a> Places<'a> {
             let (x, y) = (table.values(track.x)?, table.values(track.y)?);
             let likelihood = track.likelihood.map(|column| table.values(column));
             let likelihood = likelihood.transpose()?;
-            // One without likelihoods is certain; one whose likelihood is missing is not.
+            // A track without likelihoods is certain; a missing likelihood is not.
             let dot = |row: usize| {
                 let likelihood = likelihood.map_or(1.0, |all| all[row].unwrap_or(0.0));
                 Some(([x[row]?, y[row]?], likelihood))
@@ -85,7 +85,7 @@ impl<'a> Places<'a> {
         Ok(places)
     }
 
-    /// Changes tracks back that changed places in some rows.
+    /// Exchanges tracks back in rows in which they are exchanged, and returns the findings.
     pub(crate) fn mend(&mut self, times: &Times) -> Vec<Finding> {
         let (seconds, interval) = (&times.seconds, times.timing.interval);
         let place = |(place, _): Dot| place;
@@ -95,7 +95,7 @@ impl<'a> Places<'a> {
             .iter()
             .map(|track| track.name.as_str())
             .collect();
-        exchange::told(&exchanges, &names, seconds, interval).collect()
+        exchange::exchange_findings(&exchanges, &names, seconds, interval).collect()
     }
 
     fn index(&self, point: Point<'_>) -> Option<usize> {
@@ -105,12 +105,12 @@ impl<'a> Places<'a> {
         }
     }
 
-    /// The step in which the coordinates of a point are written, 0 of a place.
+    /// Returns the step to which the coordinates of a point are rounded; 0 for a fixed point.
     pub(crate) fn step(&self, point: Point<'_>) -> f64 {
         self.index(point).map_or(0.0, |index| self.steps[index])
     }
 
-    /// The way from one point to another in every row.
+    /// Returns the vector from one point to another in each row.
     pub(crate) fn arrows(
         &self,
         table: &Table,

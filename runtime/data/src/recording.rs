@@ -1,7 +1,10 @@
-//! Angles against time, as the rest of the project takes them.
+//! Angles against time, in the form that the rest of the project uses.
+
+use std::path::Path;
 
 use super::error::{ReadError, ReadErrorKind};
-use super::finding::{Basis, Finding, counted, listed, moments};
+use super::finding::{Basis, Finding, counted, listed, moment, moments};
+use super::leaps;
 use super::outliers::{self, Marked};
 use super::sample::Sample;
 use super::table::Table;
@@ -11,18 +14,18 @@ use super::turns::{self, Turns};
 /// Angles of one link.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LinkSeries {
-    /// Name: that of its column, or of its markers.
+    /// Name of the link, taken from its column or its markers.
     pub name: String,
     /// One sample a time.
     pub samples: Vec<Sample>,
-    /// Mean distance of its two markers and its root mean square deviation, in the units of
-    /// the file; none for angles that were measured as such. A rigid link has a constant
-    /// one: the deviation is that of the tracking.
+    /// Mean distance of its two markers and its root mean square deviation, in the units of the
+    /// file; `None` for angles that were measured directly. For a rigid link the distance is
+    /// constant, and the deviation is that of the tracking.
     pub marker_distance: Option<[f64; 2]>,
 }
 
 impl LinkSeries {
-    /// Returns the angle (in rad) to be used at a time: none where it is missing or marked.
+    /// Returns the angle (rad) to be used at a time; `None` if it is missing or marked.
     pub fn angle(&self, index: usize) -> Option<f64> {
         match self.samples.get(index) {
             Some(Sample::Measured(angle)) => Some(*angle),
@@ -36,17 +39,29 @@ impl LinkSeries {
 pub struct Recording {
     /// Times, s; ascending.
     pub times: Vec<f64>,
-    /// The links, each with as many samples as there are times.
+    /// The links, each with one sample per time.
     pub links: Vec<LinkSeries>,
     /// How even the times are.
     pub timing: Timing,
-    /// Doubts first, then facts detected, assumed and marked, those of the table before others.
+    /// Statements about the file: doubtful ones first, then detected, assumed and marked facts,
+    /// those about the table before others.
     pub findings: Vec<Finding>,
 }
 
 impl Recording {
-    /// Angles of links as they were read: takes jumps of a turn out and marks outliers.
-    /// `resolutions` (rad) are the steps in which angles of the links were counted or written.
+    /// Checks that every link moves in the rows of the recording.
+    ///
+    /// # Errors
+    /// [`ReadErrorKind::Still`] if all angles of a link are equal.
+    pub fn check_motion(&self, path: &Path) -> Result<(), ReadError> {
+        match still(&self.links) {
+            Some(still) => Err(still.at(path, None)),
+            None => Ok(()),
+        }
+    }
+
+    /// Creates a recording from angles as they were read: removes jumps of whole turns and marks
+    /// outliers. `resolutions` (rad) are the steps to which the angles of each link are rounded.
     pub(crate) fn new(
         table: &Table,
         times: Times,
@@ -60,6 +75,7 @@ impl Recording {
             return Err(table.refused(ReadErrorKind::Option { what }));
         }
         check(table, &links)?;
+        check_motion(table, &links)?;
         let Times {
             seconds,
             timing,
@@ -77,6 +93,15 @@ impl Recording {
             });
             all.push((turns, marked));
         }
+        let leaps = links.iter().zip(resolutions);
+        let leaps = leaps.map(|(link, resolution)| match outliers {
+            Some(_) => {
+                let angle = |row| link.angle(row);
+                leaps::leaps(&seconds, timing.interval, angle, *resolution)
+            }
+            None => Vec::new(),
+        });
+        let leaps: Vec<Vec<[usize; 2]>> = leaps.collect();
         let marks = Marks {
             times: &seconds,
             interval: timing.interval,
@@ -84,6 +109,7 @@ impl Recording {
             all: &all,
         };
         findings.extend(marks.findings(outliers));
+        findings.extend(marks.leaps(&leaps));
         // Doubts come first.
         findings.sort_by_key(|finding| finding.basis != Basis::Doubtful);
         Ok(Self {
@@ -95,7 +121,7 @@ impl Recording {
     }
 }
 
-/// Refuses a series that jumps too often to be angles of a link.
+/// Returns an error if a series jumps too often to be the angles of a link.
 fn check_turns(
     table: &Table,
     times: &[f64],
@@ -120,7 +146,7 @@ fn check_turns(
     Err(table.refused_at(kind, wild[0], None))
 }
 
-/// What was done to the links, to be told by kinds.
+/// Marked samples and changes of the links' angles, from which findings are made.
 struct Marks<'a> {
     times: &'a [f64],
     interval: f64,
@@ -129,14 +155,15 @@ struct Marks<'a> {
 }
 
 impl Marks<'_> {
-    /// Lists the links for which there is something to tell; nothing if there is none.
+    /// Returns a list of the links for which `of` has something to report; `None` if there are
+    /// none.
     fn of_links(&self, of: impl Fn(&Turns, Option<&Marked>) -> Option<String>) -> Option<String> {
         let links = self.links.iter().zip(self.all);
-        let told = links.filter_map(|(link, (turns, marked))| {
+        let reported = links.filter_map(|(link, (turns, marked))| {
             Some(format!("`{}`: {}", link.name, of(turns, marked.as_ref())?))
         });
-        let told: Vec<String> = told.collect();
-        (!told.is_empty()).then(|| listed(told.into_iter()))
+        let reported: Vec<String> = reported.collect();
+        (!reported.is_empty()).then(|| listed(reported.into_iter()))
     }
 
     fn at(&self, rows: &[usize], thing: &str) -> Option<String> {
@@ -144,31 +171,55 @@ impl Marks<'_> {
         (!rows.is_empty()).then(|| format!("{} ({})", counted(rows.len(), thing), places()))
     }
 
+    /// Rows between which links leap.
+    fn leaps(&self, leaps: &[Vec<[usize; 2]>]) -> Option<Finding> {
+        let links = self.links.iter().zip(leaps);
+        let links = links.filter(|(_, leaps)| !leaps.is_empty());
+        let each = links.map(|(link, leaps)| {
+            let places = leaps.iter().map(|[first, last]| {
+                let [from, to] = [first, last].map(|&row| moment(self.times[row], self.interval));
+                format!("{from} to {to}")
+            });
+            format!("`{}` {}", link.name, listed(places))
+        });
+        let each: Vec<String> = each.collect();
+        (!each.is_empty()).then(|| {
+            let text = format!(
+                "angles leap, and go on smoothly before and behind: {}. There, or between two leaps, \
+                 they may step, change their sign, be frozen or exchanged, or rows be lost",
+                listed(each.into_iter())
+            );
+            Finding::new(Basis::Doubtful, text)
+        })
+    }
+
     fn findings(&self, threshold: Option<f64>) -> Vec<Finding> {
         let jumps = self.of_links(|turns, _| self.at(&turns.jumps, "jump"));
-        let jumps = jumps.map(|told| format!("jumps of a turn were taken out: {told}"));
+        let jumps = jumps.map(|reported| format!("jumps of a turn were taken out: {reported}"));
         let doubtful = self.of_links(|turns, _| self.at(&turns.doubtful, "place"));
-        let doubtful = doubtful.map(|told| {
+        let doubtful = doubtful.map(|reported| {
             format!(
                 "turns from there on are the nearest ones and may be others, behind gaps, sudden \
-                 changes, or in a whirl of fewer than four samples a turn: {told}"
+                 changes, or in a whirl of fewer than four samples a turn: {reported}"
             )
         });
         let marked = self.of_links(|_, marked| match marked? {
             Marked::Rows(rows) => self.at(rows, "outlier"),
             Marked::TooMany(_) => None,
         });
-        let marked = marked.zip(threshold).map(|(told, threshold)| {
-            format!("{told}, beyond {threshold} times the usual deviation from their neighbours")
+        let marked = marked.zip(threshold).map(|(reported, threshold)| {
+            format!(
+                "{reported}, beyond {threshold} times the usual deviation from their neighbours"
+            )
         });
         let too_many = self.of_links(|_, marked| match marked? {
             Marked::Rows(_) => None,
             Marked::TooMany(count) => Some(format!("{count} samples")),
         });
-        let too_many = too_many.map(|told| {
+        let too_many = too_many.map(|reported| {
             format!(
-                "no outliers, since so many would be: {told}; the motion is too fast for this rate, \
-                 or the noise comes in spikes"
+                "no samples are marked as outliers, because too many would be: {reported}; the motion is \
+                 too fast for this rate, or the noise comes in spikes"
             )
         });
         let unlikely = self.links.iter().filter_map(|link| {
@@ -186,12 +237,70 @@ impl Marks<'_> {
             (Basis::Marked, too_many),
             (Basis::Marked, unlikely),
         ];
-        let told = |(basis, text): (Basis, Option<String>)| Some(Finding::new(basis, text?));
-        all.into_iter().filter_map(told).collect()
+        let reported = |(basis, text): (Basis, Option<String>)| Some(Finding::new(basis, text?));
+        all.into_iter().filter_map(reported).collect()
     }
 }
 
-/// Refuses angles of so many turns that one more is lost in their rounding.
+/// Largest number of links that are found in a file without being named.
+const WIDEST: usize = 1024;
+
+/// Returns an error if a table has more columns or tracks than a tree is expected to have links.
+pub(crate) fn check_width(
+    table: &Table,
+    found: usize,
+    things: &'static str,
+) -> Result<(), ReadError> {
+    match found > WIDEST {
+        true => Err(table.refused(ReadErrorKind::TooWide {
+            found,
+            things,
+            most: WIDEST,
+        })),
+        false => Ok(()),
+    }
+}
+
+/// Returns an error if the angles of a table would not fit into memory while they are read.
+pub(crate) fn check_memory(table: &Table, links: usize) -> Result<(), ReadError> {
+    /// Approximate number of bytes that an angle needs while it is read.
+    const BYTES: usize = 250;
+    let rows = table.rows();
+    let mut memory: Vec<u8> = Vec::new();
+    let needed = rows.saturating_mul(links).saturating_mul(BYTES);
+    memory.try_reserve_exact(needed).map_err(|_| {
+        let columns = table.columns().len();
+        table.refused(ReadErrorKind::Memory { rows, columns })
+    })
+}
+
+/// Returns an error if the angles of a link are all equal.
+pub(crate) fn check_motion(table: &Table, links: &[LinkSeries]) -> Result<(), ReadError> {
+    match still(links) {
+        Some(still) => Err(table.refused(still)),
+        None => Ok(()),
+    }
+}
+
+/// Returns the error for a link whose angles are all equal, if there is one.
+fn still(links: &[LinkSeries]) -> Option<ReadErrorKind> {
+    /// Smallest number of angles from which on a link must move.
+    const FEWEST: usize = 5;
+    links.iter().find_map(|link| {
+        let all = 0..link.samples.len();
+        let mut angles = all.filter_map(|index| link.angle(index));
+        let value = angles.next()?;
+        let mut count = 1;
+        let is_still = angles.inspect(|_| count += 1).all(|angle| angle == value);
+        (is_still && count >= FEWEST).then(|| ReadErrorKind::Still {
+            name: link.name.clone(),
+            count,
+            value,
+        })
+    })
+}
+
+/// Returns an error if angles have so many turns that a single turn is lost in their rounding.
 fn check(table: &Table, links: &[LinkSeries]) -> Result<(), ReadError> {
     const LARGEST: f64 = 1e6;
     for link in links {

@@ -1,15 +1,16 @@
-//! Where the rows of numbers begin.
+//! Search for the first row of numbers in a table.
 
 use super::cell::Entry;
-use super::error::{Place, ReadErrorKind};
+use super::error::ReadErrorKind;
 use super::format::{Format, TextLine, begins_as_number};
+use super::place::Place;
 
-/// Lines that are looked at to tell columns of numbers from columns of text.
+/// Number of lines that are read to distinguish columns of numbers from columns of text.
 const SAMPLE: usize = 2000;
 
-/// The index of the first row: the first line that has numbers or nothing in all columns of
-/// numbers. A line right above it that begins with a number as well, in as many cells, is a
-/// row with a mistake in it.
+/// Returns the index of the first row: the first line that has a number or nothing in every column
+/// of numbers. A line directly above it with as many cells that also begins with a number is a row
+/// with a mistake.
 pub(crate) fn first_row(lines: &[TextLine], format: Format) -> Option<usize> {
     let is_text = columns_of_text(lines, format);
     let is_row = |line: &TextLine| {
@@ -34,8 +35,8 @@ pub(crate) fn first_row(lines: &[TextLine], format: Format) -> Option<usize> {
     Some(first)
 }
 
-/// For each column whether it holds words: of the lines with two numbers or more, those with
-/// a word there are the majority.
+/// Returns, for each column, true if it contains text: of the lines with at least two numbers, the
+/// majority has text there.
 fn columns_of_text(lines: &[TextLine], format: Format) -> Vec<bool> {
     let mut votes: Vec<i64> = Vec::new();
     for line in lines.iter().take(SAMPLE) {
@@ -55,22 +56,8 @@ fn columns_of_text(lines: &[TextLine], format: Format) -> Vec<bool> {
     votes.into_iter().map(|votes| votes > 0).collect()
 }
 
-/// Number of columns: that of the first row, without empty cells at its end that end all rows
-/// and the line of the names.
-pub(crate) fn width(rows: &[TextLine], names: Option<&TextLine>) -> usize {
-    let used = |line: &TextLine| {
-        line.cells
-            .iter()
-            .rposition(|cell| !cell.is_empty())
-            .map_or(0, |last| last + 1)
-    };
-    let most = rows.iter().chain(names).map(used).max().unwrap_or(0);
-    let first = rows.first().map_or(0, |line| line.cells.len());
-    most.min(first)
-}
-
-/// Why no line is a row: the first cell that was meant as a number and is none, of the first
-/// line that has most cells that begin as numbers.
+/// Returns the error if no line is a row of numbers: its position is the first cell that looks like
+/// a number but is none, in the first line with the most cells that begin like numbers.
 pub(crate) fn no_rows(lines: &[TextLine], format: Format) -> (ReadErrorKind, Option<Place>) {
     let meant = |line: &TextLine| {
         let cells = line.cells.iter().filter(|cell| begins_as_number(cell));

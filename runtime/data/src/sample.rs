@@ -1,15 +1,15 @@
-//! What was measured at one time.
+//! Measurement of an angle at one time.
 
-/// The angle of a link at one time, rad.
+/// Angle of a link at one time, in rad.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Sample {
     /// A measured angle.
     Measured(f64),
-    /// One that does not fit its neighbours.
+    /// An angle that does not fit to its neighbours.
     Outlier(f64),
-    /// One whose points were found with too small a likelihood.
+    /// An angle whose points were detected with too small a likelihood.
     Unlikely(f64),
-    /// None was measured.
+    /// No angle was measured.
     Missing,
 }

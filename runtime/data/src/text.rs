@@ -1,15 +1,14 @@
-//! The text of a file.
+//! Decoding of the text of a file.
 
 use std::borrow::Cow;
 
 use super::error::ReadErrorKind;
 use super::finding::{Basis, Finding};
 
-/// Text out of bytes: UTF-8, or Latin-1 where it is none.
+/// Decodes bytes as UTF-8, or as Latin-1 if they are not valid UTF-8, which is a finding.
 pub(crate) fn decoded(bytes: Vec<u8>) -> Result<(String, Option<Finding>), ReadErrorKind> {
     let what = match bytes.as_slice() {
         [0xff, 0xfe, ..] | [0xfe, 0xff, ..] => Some("UTF-16"),
-        [b'P', b'K', 3, 4, ..] => Some("a zip archive (a spreadsheet?)"),
         [0x89, b'H', b'D', b'F', ..] => Some("HDF5"),
         bytes if bytes.contains(&0) => Some("binary data"),
         _ => None,
@@ -27,8 +26,8 @@ pub(crate) fn decoded(bytes: Vec<u8>) -> Result<(String, Option<Finding>), ReadE
     })
 }
 
-/// A text whose lines end in `\n`, without a mark of its encoding; a text that is no table
-/// of numbers is refused by what it is.
+/// Returns a text with lines that end in `\n`, without a byte order mark. Rejects text that is not
+/// a table of numbers, with an error that names its kind.
 pub(crate) fn plain(text: &str) -> Result<Cow<'_, str>, ReadErrorKind> {
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     let start = text.trim_start();

@@ -1,23 +1,26 @@
 //! Points that a camera followed.
 
+use std::collections::BTreeMap;
+
 use super::names::{ANGLE, coordinate, words};
 use super::units::Unit;
 use super::write::Column;
 
-/// A point that a camera followed: indices of its columns.
+/// A point that a camera tracked: the indices of its columns.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Track {
     /// Name.
     pub name: String,
-    /// Column of the coordinate to the right.
+    /// Column of the coordinate that points to the right.
     pub x: usize,
     /// Column of the other coordinate.
     pub y: usize,
-    /// Column of the likelihood, where there is one.
+    /// Column of the likelihood, if there is one.
     pub likelihood: Option<usize>,
 }
 
-/// Points of which both coordinates are columns.
+/// Finds the measured points of a table: pairs of columns that contain the two coordinates of a
+/// point.
 pub(crate) fn tracks(columns: &[Column]) -> Vec<Track> {
     let is_length =
         |column: &&Column| matches!(Unit::named(&column.unit), None | Some(Unit::Length));
@@ -27,10 +30,14 @@ pub(crate) fn tracks(columns: &[Column]) -> Vec<Track> {
             .and_then(|c| coordinate(&c.name))
     };
     let coordinates: Vec<_> = columns.iter().map(coordinate).collect();
-    let find = |point: &str, axis: &str| {
-        let mut all = coordinates.iter();
-        all.position(|c| c.as_ref().is_some_and(|(p, a)| p == point && *a == axis))
-    };
+    // The first column of each coordinate.
+    let mut places: BTreeMap<(&str, &str), usize> = BTreeMap::new();
+    for (index, coordinate) in coordinates.iter().enumerate() {
+        if let Some((point, axis)) = coordinate {
+            places.entry((point, axis)).or_insert(index);
+        }
+    }
+    let find = |point: &str, axis: &str| places.get(&(point, axis)).copied();
     let rates = [
         "v",
         "vel",

@@ -1,46 +1,49 @@
-//! Whole turns of an angle, counted past samples that are wrong.
+//! Counting of whole turns of an angle, robust against wrong samples.
 
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI, TAU};
 
 use super::sample::Sample;
 use super::timing::{Timing, quantile};
 
-/// Samples that a path may leave out in succession, and one.
+/// Number of successive samples that a path may leave out, plus one.
 const REACH: usize = 6;
-/// Steps of so many intervals begin at the place and with the rate before.
+/// Length of a step, in usual intervals, up to which the next angle is predicted from the angle and
+/// the rate before.
 const NEAR: f64 = REACH as f64 + 0.5;
-/// Price of a sample that is left out, in usual bends, and the least and the most of it in radians. A
-/// glitch bends the path by four times its size, or by a turn.
+/// Cost of leaving out a sample, in units of the usual bend (second difference); then its lower and
+/// upper bounds in rad. A glitch bends the path by four times its size, or by a turn.
 const LEFT_OUT: f64 = 20.0;
 const LEAST: f64 = 0.1;
 const MOST: f64 = 1.0;
-/// Prices at an end, where no later sample speaks against it.
+/// Cost factors at the ends of the record, where no other samples help to decide.
 const AT_END: f64 = 2.0;
-/// Part of all bends that the usual one is not below: each wrong sample makes three large ones.
+/// Fraction of all bends that are smaller than the usual one; each wrong sample causes three large
+/// bends.
 const USUAL: f64 = 0.7;
-/// Bends beyond which another turn would do nearly as well.
+/// Bend (rad) above which another number of turns would fit nearly as well.
 const WILD: f64 = FRAC_PI_2;
-/// Bends for which a sample would be left out if one would do.
+/// Bend (rad) for which a sample would be left out if leaving out a single one helped.
 const DOUBTFUL: f64 = MOST;
 
-/// A series whose turns were counted.
+/// A series of angles whose whole turns have been counted.
 #[derive(Default)]
 pub(crate) struct Turns {
-    /// Rows on whose angles the count rests.
+    /// Rows on whose angles the count is based.
     pub(crate) followed: Vec<usize>,
     /// Rows from which on another number of turns is added.
     pub(crate) jumps: Vec<usize>,
-    /// Rows whose turns may be others: behind a gap that may hide some, behind a bend, in a whirl
-    /// of fewer than four samples a turn.
+    /// Rows whose number of turns is uncertain: after a gap that may hide turns, after a sharp
+    /// bend, or during fast rotation with fewer than four samples per turn.
     pub(crate) doubtful: Vec<usize>,
     /// Rows behind such a bend.
     pub(crate) bends: Vec<usize>,
-    /// Rows that no turn brings near the others.
+    /// Rows that are far from the others for any number of turns.
     pub(crate) strays: Vec<usize>,
 }
 
-/// Adds whole turns so that the angles follow each other with the smallest bends, past samples that
-/// would bend the path by more than they are worth. Linear in their number.
+/// Adds whole turns to the angles such that their path has the smallest bends; samples that would
+/// bend the path by more than the cost of leaving them out are skipped. Linear in the number of
+/// samples.
 pub(crate) fn count(times: &[f64], samples: &mut [Sample], timing: &Timing) -> Turns {
     let measured = |(row, sample): (usize, &Sample)| match sample {
         Sample::Measured(value) => Some((row, *value)),
@@ -63,12 +66,12 @@ pub(crate) fn count(times: &[f64], samples: &mut [Sample], timing: &Timing) -> T
     let jumps = added.windows(2).zip(&turns.followed[1.min(added.len())..]);
     let jumps = jumps.filter(|(pair, _)| pair[0] != pair[1]);
     turns.jumps = jumps.map(|(_, &row)| row).collect();
-    turns.strays = place_others(times, samples, &turns.followed, &steps);
+    turns.strays = place_remaining_rows(times, samples, &turns.followed, &steps);
     turns
 }
 
 impl Turns {
-    /// Finds the bends and the doubtful rows of a path.
+    /// Finds the sharp bends and the uncertain rows of a path.
     fn judge(&mut self, times: &[f64], path: &[usize], steps: &[Step], timing: &Timing) {
         let rows = &self.followed;
         let is_long = |from: usize, to: usize| {
@@ -116,9 +119,9 @@ impl Turns {
     }
 }
 
-/// Gives the followed rows their angles, and the others the turn that is nearest to these; tells
-/// the measured ones among the others that are far from them all the same.
-fn place_others(
+/// Sets the angles of the rows on the path, and of each other row the angle with the nearest number
+/// of turns. Returns the measured rows among the others that are far from the path nevertheless.
+fn place_remaining_rows(
     times: &[f64],
     samples: &mut [Sample],
     followed: &[usize],
@@ -136,7 +139,7 @@ fn place_others(
             let place = place?;
             Some((times[*followed.get(place)?], steps[place].value))
         });
-        // At an end one side alone tells, and no more than which half turn.
+        // At an end only one side is known, and it gives no more than the half turn.
         let (expected, far_from) = match around {
             [Some((start, from)), Some((end, to))] => {
                 let part = (times[row] - start) / (end - start);
@@ -156,18 +159,18 @@ fn place_others(
     far
 }
 
-/// The angle that differs by whole turns and is nearest to another.
+/// Returns the angle nearest to `expected` that differs from `value` by whole turns.
 fn nearest(value: f64, expected: f64) -> f64 {
     value + ((expected - value) / TAU).round() * TAU
 }
 
-/// A sample of a path, its turns counted.
+/// A sample of a path, with its turns counted.
 #[derive(Clone, Copy)]
 struct Step {
     value: f64,
-    /// Angular velocity; NaN where none is known yet, at the start and behind gaps.
+    /// Angular velocity; NaN if it is not known yet, at the start and after gaps.
     rate: f64,
-    /// Distance from the place to which the rate before leads.
+    /// Distance from the angle predicted by the previous angular velocity.
     bend: f64,
 }
 
@@ -177,8 +180,8 @@ impl Step {
         Self { value, rate, bend }
     }
 
-    /// The next sample, `intervals` later. The rate changes by a short step only in part: noise is
-    /// much of one.
+    /// Returns the step to the next sample, `interval` usual intervals later. For a short step the
+    /// angular velocity changes only partly, because much of its change is noise.
     fn next(&self, value: f64, time: f64, interval: f64) -> Self {
         let intervals = time / interval;
         let is_near = intervals <= NEAR;
@@ -206,7 +209,8 @@ impl Step {
         }
     }
 
-    /// Price of the step from another: the bend, and what is beyond half a turn an interval.
+    /// Returns the cost of a step from another sample: its bend, and the excess over half a turn
+    /// per interval.
     fn price(&self, from: &Self, intervals: f64) -> f64 {
         let beyond = (self.value - from.value).abs() - PI * intervals.max(1.0);
         self.bend.abs() + beyond.max(0.0)
@@ -227,15 +231,15 @@ fn steps_along(path: &[usize], times: &[f64], values: &[f64], interval: f64) -> 
     steps
 }
 
-/// The best way to a sample from a certain one before it.
+/// The best path to a sample from a certain sample before it.
 #[derive(Clone, Copy)]
-struct Way {
+struct BestPath {
     step: Step,
     cost: f64,
 }
 
-/// Samples, in their order, of the path that costs least, by dynamic programming: the state is a
-/// pair of successive samples of the path. Samples are left out only near bends.
+/// Returns the samples of the path with the lowest cost, in order, by dynamic programming: the
+/// state is a pair of successive samples of the path. Samples are left out only near bends.
 fn cheapest_path(times: &[f64], values: &[f64], interval: f64) -> Vec<usize> {
     let count = values.len();
     if count < 3 {
@@ -248,11 +252,11 @@ fn cheapest_path(times: &[f64], values: &[f64], interval: f64) -> Vec<usize> {
         return (0..count).collect();
     }
     // `ways[index % REACH][back - 1]` comes from `index - back`, or from the start.
-    let mut ways = [[None::<Way>; REACH]; REACH];
+    let mut ways = [[None::<BestPath>; REACH]; REACH];
     let mut sources = vec![[0_u8; REACH]; count];
     let mut best: Option<(f64, usize, usize)> = None;
     for index in 0..count {
-        let mut own = [None::<Way>; REACH];
+        let mut own = [None::<BestPath>; REACH];
         for back in 1..=REACH.min(index + 1) {
             let between = index + 1 - back..index;
             if !between.clone().all(|left_out| rough[left_out]) {
@@ -262,7 +266,7 @@ fn cheapest_path(times: &[f64], values: &[f64], interval: f64) -> Vec<usize> {
             let Some(from) = index.checked_sub(back) else {
                 let step = Step::first(values[index]);
                 let cost = AT_END * price * left_out;
-                own[back - 1] = Some(Way { step, cost });
+                own[back - 1] = Some(BestPath { step, cost });
                 break;
             };
             let time = times[index] - times[from];
@@ -271,7 +275,7 @@ fn cheapest_path(times: &[f64], values: &[f64], interval: f64) -> Vec<usize> {
                 let step = way.step.next(values[index], time, interval);
                 let cost = way.cost + price * left_out + step.price(&way.step, time / interval);
                 if own[back - 1].is_none_or(|other| cost < other.cost) {
-                    own[back - 1] = Some(Way { step, cost });
+                    own[back - 1] = Some(BestPath { step, cost });
                     sources[index][back - 1] = source as u8;
                 }
             }
@@ -294,7 +298,8 @@ fn cheapest_path(times: &[f64], values: &[f64], interval: f64) -> Vec<usize> {
     }
 }
 
-/// The path that ends with a sample and the one `back` + 1 before it, of the sources of all pairs.
+/// Returns the path that ends with sample `index` and the sample `back` + 1 before it, from the
+/// predecessors of all pairs.
 fn path_to(mut index: usize, mut back: usize, sources: &[[u8; REACH]]) -> Vec<usize> {
     let mut path = Vec::with_capacity(sources.len());
     loop {
@@ -309,7 +314,7 @@ fn path_to(mut index: usize, mut back: usize, sources: &[[u8; REACH]]) -> Vec<us
     path
 }
 
-/// Prices of the steps to each sample from the third on, as if none was left out.
+/// Returns the costs of the steps to each sample, from the third on, if no sample is left out.
 fn bends(times: &[f64], values: &[f64], interval: f64) -> Vec<f64> {
     let bend = |last: usize| {
         let steps = steps_along(&[last - 2, last - 1, last], times, values, interval);
@@ -318,7 +323,8 @@ fn bends(times: &[f64], values: &[f64], interval: f64) -> Vec<f64> {
     (2..values.len()).map(bend).collect()
 }
 
-/// Samples within reach of three that bend by more than a limit.
+/// Marks samples near three successive samples between which the slope changes by more than a
+/// limit.
 fn near_bends(bends: &[f64], limit: f64) -> Vec<bool> {
     let mut rough = vec![false; bends.len() + 2];
     let mut marked = 0;
@@ -331,4 +337,44 @@ fn near_bends(bends: &[f64], limit: f64) -> Vec<bool> {
         }
     }
     rough
+}
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::{PI, TAU};
+
+    use super::{bends, cheapest_path};
+
+    /// Returns times whose intervals are the given multiples of the usual one, in turn.
+    fn spaced(parts: &[f64]) -> Vec<f64> {
+        let all = parts.iter().cycle().take(60);
+        let times = all.scan(0.0, |time, part| {
+            *time += part;
+            Some(*time)
+        });
+        times.collect()
+    }
+
+    /// Checks that a uniform rotation has no bends, however its rows are spaced: with jitter, and
+    /// with rows closer than the usual interval, in which a link may turn by more than its share of
+    /// half a turn.
+    #[test]
+    fn close_rows_of_a_whirl_cost_nothing() {
+        for (parts, rate) in [
+            (&[1.0, 1.0, 1.0][..], 0.9 * PI),
+            (&[0.7, 1.2, 1.0, 0.9, 1.1], 0.75 * PI),
+            (&[0.3, 0.3, 0.6, 0.3], 1.6 * PI),
+            (&[0.1, 0.2, 0.15, 0.1], 4.0 * PI),
+            (&[0.05, 0.05, 0.15, 0.05], -6.0 * PI),
+        ] {
+            let times = spaced(parts);
+            let wrap = |angle: f64| angle - TAU * (angle / TAU).round();
+            let values = times.iter().map(|time| wrap(rate * time));
+            let values: Vec<f64> = values.collect();
+            let largest = bends(&times, &values, 1.0).into_iter().fold(0.0, f64::max);
+            assert!(largest < 1e-9, "{parts:?} {rate}: {largest}");
+            let path: Vec<usize> = (0..times.len()).collect();
+            assert_eq!(cheapest_path(&times, &values, 1.0), path);
+        }
+    }
 }

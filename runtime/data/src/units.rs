@@ -1,6 +1,8 @@
-//! Units of angles, times and what else stands beside them.
+//! Units of angles, times and other quantities.
 
+use std::borrow::Cow;
 use std::f64::consts::{PI, TAU};
+use std::num::NonZeroU32;
 
 /// Unit of angles.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -19,10 +21,12 @@ pub enum AngleUnit {
     Gradians,
     /// Whole turns.
     Turns,
+    /// Counts of an encoder, with this many per turn.
+    Counts(NonZeroU32),
 }
 
 impl AngleUnit {
-    /// All of them, each with its usual short name.
+    /// Units of fixed size, each with its usual short name.
     pub const ALL: [(&'static str, Self); 7] = [
         ("rad", Self::Radians),
         ("deg", Self::Degrees),
@@ -33,7 +37,16 @@ impl AngleUnit {
         ("turn", Self::Turns),
     ];
 
-    /// Returns the size of the unit, rad.
+    /// Returns the unit with this short name; `counts:N` is an encoder with N counts per turn.
+    pub fn named(name: &str) -> Option<Self> {
+        if let Some(counts) = name.strip_prefix("counts:") {
+            return counts.parse().ok().map(Self::Counts);
+        }
+        let found = Self::ALL.iter().find(|(own, _)| *own == name);
+        found.map(|(_, unit)| *unit)
+    }
+
+    /// Returns the size of the unit in rad.
     pub fn radians(self) -> f64 {
         match self {
             Self::Radians => 1.0,
@@ -43,12 +56,13 @@ impl AngleUnit {
             Self::ArcSeconds => PI / 648_000.0,
             Self::Gradians => PI / 200.0,
             Self::Turns => TAU,
+            Self::Counts(counts) => TAU / f64::from(counts.get()),
         }
     }
 
-    /// Name of the unit in sentences.
-    pub(crate) const fn word(self) -> &'static str {
-        match self {
+    /// Returns the name of the unit for sentences.
+    pub(crate) fn word(self) -> Cow<'static, str> {
+        let word = match self {
             Self::Radians => "radians",
             Self::Milliradians => "milliradians",
             Self::Degrees => "degrees",
@@ -56,24 +70,26 @@ impl AngleUnit {
             Self::ArcSeconds => "arc seconds",
             Self::Gradians => "gradians",
             Self::Turns => "turns",
-        }
+            Self::Counts(counts) => return format!("counts, {counts} a turn").into(),
+        };
+        word.into()
     }
 }
 
-/// What a unit is one of.
+/// Quantity that a unit measures.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Unit {
-    /// Of a time, with its size in seconds.
+    /// Unit of time, with its size in seconds.
     Time(f64),
     /// Of an angle.
     Angle(AngleUnit),
-    /// Of a length, in a picture or in space.
+    /// Unit of length, in a picture or in space.
     Length,
-    /// Of something else that stands in tables of motions.
+    /// Unit of another quantity that occurs in tables of motions.
     Other,
 }
 
-/// What stands in place of a unit where cells name pictures by their numbers.
+/// Word that stands for the unit in columns of frame numbers.
 pub(crate) const FRAME: &str = "frame";
 
 const UNITS: [(&[&str], Unit); 14] = [
@@ -132,7 +148,7 @@ const UNITS: [(&[&str], Unit); 14] = [
 ];
 
 impl Unit {
-    /// The unit of that name; capital letters make no difference to words.
+    /// Returns the unit with this name; for words, upper and lower case are the same.
     pub(crate) fn named(text: &str) -> Option<Self> {
         let text = &bare(text);
         let exact = |text: &str| {

@@ -1,4 +1,4 @@
-//! Writing comma-separated values: one row of numbers and names a sample.
+//! Writing of comma-separated values: one row of numbers and texts per sample.
 
 use core::fmt;
 use std::fs::File;
@@ -8,14 +8,14 @@ use std::path::{Path, PathBuf};
 /// Name and unit of a column.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Column {
-    /// Name, as it stands in the header.
+    /// Name in the header.
     pub name: String,
     /// Unit; empty for none.
     pub unit: String,
 }
 
 impl Column {
-    /// The column `name`, in `unit`; an empty unit is left out of the header.
+    /// Creates the column `name` with the unit `unit`; an empty unit is left out of the header.
     pub fn new(name: impl Into<String>, unit: impl Into<String>) -> Self {
         Self {
             name: name.into(),
@@ -39,12 +39,13 @@ impl fmt::Display for Column {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Cell<'a> {
-    /// A number, written with the fewest digits that read back as the same
-    /// `f64`; `NaN`, `inf` and `-inf` stand for themselves.
+    /// A number, written with the fewest digits that read back as the same `f64`; a number that is
+    /// infinite or NaN becomes an empty cell.
     Number(f64),
     /// A number of things.
     Count(u64),
-    /// Text; the file has it quoted where it holds commas, quotes or line breaks (RFC 4180).
+    /// A text; in the file it is quoted if it contains commas, quotation marks or line breaks (RFC
+    /// 4180).
     Text(&'a str),
 }
 
@@ -77,14 +78,15 @@ impl fmt::Display for Cell<'_> {
         match self {
             // `Debug` writes very large and small numbers with an exponent,
             // where `Display` would write hundreds of zeros.
-            Self::Number(value) => write!(f, "{value:?}"),
+            Self::Number(value) if value.is_finite() => write!(f, "{value:?}"),
+            Self::Number(_) => Ok(()),
             Self::Count(count) => write!(f, "{count}"),
             Self::Text(text) => f.write_str(text),
         }
     }
 }
 
-/// A CSV file being written.
+/// A CSV file that is being written.
 ///
 /// The first line names the columns with their units, `theta_1 [rad]`; each
 /// further line is a row of [`Cell`]s. Lines end with a line feed.
@@ -114,12 +116,13 @@ pub struct CsvWriter<W: Write = BufWriter<File>> {
     file: csv::Writer<W>,
     columns: usize,
     rows: u64,
+    empty: u64,
 }
 
 impl CsvWriter {
-    /// Creates the file, or empties it if it exists, and writes its header. A
-    /// writer that is dropped before [`CsvWriter::finish`] writes what it holds
-    /// too, but cannot say if it failed.
+    /// Creates the file, or empties it if it exists, and writes its header. A writer that is
+    /// dropped before [`CsvWriter::finish`] also writes its remaining data, but cannot report an
+    /// error.
     ///
     /// # Errors
     ///
@@ -134,8 +137,7 @@ impl CsvWriter {
 }
 
 impl<W: Write> CsvWriter<W> {
-    /// Writes a table to `file`, its header first; `path` stands for it in
-    /// errors.
+    /// Starts a table in `file` by writing its header; `path` is the name of the file in errors.
     ///
     /// # Errors
     ///
@@ -148,6 +150,7 @@ impl<W: Write> CsvWriter<W> {
             file: csv::Writer::from_writer(file),
             columns: columns.len(),
             rows: 0,
+            empty: 0,
         };
         writer.record(columns.iter().map(ToString::to_string))?;
         Ok(writer)
@@ -173,17 +176,25 @@ impl<W: Write> CsvWriter<W> {
                 found: cells.len(),
             });
         }
+        let empty = cells.iter().filter(|cell| cell.is_empty()).count();
         self.record(cells)?;
         self.rows += 1;
+        self.empty += empty as u64;
         Ok(())
     }
 
-    /// Number of rows written, the header not counted.
+    /// Returns the number of rows written, without the header.
     pub fn rows(&self) -> u64 {
         self.rows
     }
 
-    /// Writes what is still in memory and returns what was written to.
+    /// Returns the number of empty cells written: numbers that are infinite or NaN, and empty
+    /// texts.
+    pub fn empty_cells(&self) -> u64 {
+        self.empty
+    }
+
+    /// Writes the remaining data, and returns the underlying file.
     ///
     /// # Errors
     ///
@@ -216,7 +227,7 @@ fn require_columns(path: &Path, columns: &[Column]) -> Result<(), CsvError> {
     Ok(())
 }
 
-/// Why a CSV file was not written.
+/// Reason why a CSV file could not be written.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum CsvError {
@@ -231,13 +242,13 @@ pub enum CsvError {
         source: io::Error,
     },
     /// A table without columns.
-    #[error("no columns for {}", path.display())]
+    #[error("the table for {} has no columns", path.display())]
     NoColumns {
         /// The file.
         path: PathBuf,
     },
     /// A row has more or fewer values than there are columns.
-    #[error("row {row} of {} has {found} values for {expected} columns", path.display())]
+    #[error("row {row} of {} has {found} values, but the table has {expected} columns", path.display())]
     ColumnCount {
         /// The file.
         path: PathBuf,

@@ -1,6 +1,6 @@
-//! Progress of a long run, kept in its folder: the same command goes on from there.
+//! Checkpoints: the progress of a long run, stored in its folder, from which the same command
+//! continues.
 
-use std::fs;
 use std::io;
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
@@ -10,13 +10,14 @@ use serde::de::DeserializeOwned;
 
 use super::files::{CHECKPOINT, locked, replace};
 use super::job::Job;
-use super::sealed::{open, seal};
+use super::owned;
+use super::sealed::{MARK, open, seal};
 use crate::failure::Failure;
 
-/// The checkpoint of a run, at most one, replaced as a whole.
+/// The checkpoint file of a run; there is at most one, which is replaced as a whole.
 ///
-/// Where the run may be interrupted does not depend on the clock: a program goes on from
-/// any of its checkpoints with the bits that it would have had.
+/// Results do not depend on the time of the interruption: a run that continues from a checkpoint
+/// has the same bits as an uninterrupted one.
 #[derive(Debug)]
 pub struct Checkpoint<'j> {
     job: &'j Job,
@@ -26,8 +27,8 @@ pub struct Checkpoint<'j> {
 }
 
 impl<'j> Checkpoint<'j> {
-    /// The checkpoint in the folder of `job`, if it has one, that is replaced no sooner
-    /// than after so many seconds.
+    /// Creates the access to the checkpoint in the folder of `job`, if there is a folder. The
+    /// checkpoint is replaced at most every `seconds` seconds.
     pub fn new(job: &'j Job, seconds: f64) -> Self {
         Self {
             job,
@@ -37,16 +38,16 @@ impl<'j> Checkpoint<'j> {
         }
     }
 
-    /// Progress of the run, if it was interrupted.
+    /// Reads the progress of the run, if it was interrupted before.
     ///
     /// # Errors
-    /// [`Failure::Sealed`] of a checkpoint that is damaged, or of another run;
+    /// [`Failure::Sealed`] if the checkpoint is damaged or belongs to another run;
     /// [`Failure::File`].
     pub fn read<C: DeserializeOwned>(&self) -> Result<Option<C>, Failure> {
         let Some(path) = &self.path else {
             return Ok(None);
         };
-        let bytes = match fs::read(path) {
+        let bytes = match owned::read(path, &|_| Ok(true)) {
             Ok(bytes) => bytes,
             Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(None),
             Err(source) => {
@@ -63,7 +64,7 @@ impl<'j> Checkpoint<'j> {
         })
     }
 
-    /// Saves what the run has reached, if it is time to.
+    /// Saves the progress of the run, if enough time has passed since the last checkpoint.
     ///
     /// # Errors
     /// [`Failure::File`].
@@ -81,19 +82,21 @@ impl<'j> Checkpoint<'j> {
         })?;
         // Ctrl-C waits for the file to be whole.
         let ledger = locked(&self.job.ledger);
-        replace(path, &bytes).map_err(|source| Failure::File {
-            path: path.clone(),
-            source,
+        replace(path, &bytes, &ledger.stamp, &owned::has_header(MARK)).map_err(|source| {
+            Failure::File {
+                path: path.clone(),
+                source,
+            }
         })?;
         drop(ledger);
         self.saved = Instant::now();
         Ok(())
     }
 
-    /// Takes the checkpoint away: its run has ended, and its results are there.
+    /// Removes the checkpoint after its run has ended and its results have been written.
     pub fn discard(self) {
         if let Some(path) = self.path {
-            let _ = fs::remove_file(path);
+            owned::remove(&path, &owned::has_header(MARK));
         }
     }
 }

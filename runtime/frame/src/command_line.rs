@@ -1,4 +1,4 @@
-//! The command line: numbers with their ranges, `--output` and `--repeat`.
+//! Reading of the command line: numbers with their ranges, `--output` and `--repeat`.
 
 use std::ffi::OsString;
 use std::ops::RangeInclusive;
@@ -10,30 +10,30 @@ use clap::{Arg, ArgMatches, Command, Id, Parser, value_parser};
 use serde_json::{Map, Value};
 
 use super::figures::{Charts, Figures, TimeSpan};
+use super::input::{INPUTS, Input};
 use super::sweep::Shard;
 
-/// The options of a program, beside those that all have.
+/// The options of a program, without the options that all programs have.
 pub trait Arguments: Parser {
-    /// Folder of results where none is given; none for a program that writes
-    /// files only where it is asked to.
+    /// Default folder of results; `None` if the program writes files only on request.
     const FOLDER: Option<&'static str>;
 
-    /// The charts that the program draws.
+    /// Kinds of charts that the program draws.
     const CHARTS: Charts = Charts::None;
 
-    /// Time that is followed, s from 0 on, where the options alone tell it: charts cannot show
-    /// another.
+    /// Returns the duration of the motion in s, if the options alone determine it: charts cannot
+    /// show later times.
     fn followed(&self) -> Option<f64> {
         None
     }
 
-    /// The shard of the run that is computed, if it is not all of it.
+    /// Returns the shard of the run that is computed, if it is not the whole run.
     fn shard(&self) -> Option<Shard> {
         None
     }
 
-    /// The options that a record decides on which is measured or simulated; none of a program
-    /// that has no such record.
+    /// Returns the options that depend on whether a record is measured or simulated; empty if the
+    /// program has no such record.
     fn of_records() -> RecordOptions {
         RecordOptions::default()
     }
@@ -41,33 +41,35 @@ pub trait Arguments: Parser {
     /// Compares options with each other.
     ///
     /// # Errors
-    /// A sentence about two options that exclude each other.
+    /// A message about two options that exclude each other.
     fn check(&self) -> Result<(), String> {
         Ok(())
     }
 }
 
-/// Options, by their names, of a program whose record is measured where a [`FILE`] is given, and
-/// simulated without one: each list means nothing to the record of the other kind. An option may
-/// stand in place of a record.
+/// Names of the options of a program whose record is measured if a [`FILE`] is given, and simulated
+/// otherwise. Each list has no meaning for the other kind of record. One option can replace a
+/// record.
 #[derive(Clone, Debug, Default)]
 pub struct RecordOptions {
-    /// Options of a file of measurements.
+    /// Options that apply only to a file of measurements.
     pub measured: Vec<&'static str>,
     /// Options of a simulated record.
     pub simulated: Vec<&'static str>,
-    /// The option that stands in place of a record where it is given without a file: then none is
-    /// simulated.
+    /// The option that replaces a record if it is given without a file; no record is simulated
+    /// then.
     pub instead: Option<&'static str>,
-    /// Options of a record of either kind, which mean nothing without one.
+    /// Options that apply to measured and to simulated records, and have no meaning without a
+    /// record.
     pub of_both: Vec<&'static str>,
 }
 
-/// Name of the argument that is a file of measurements.
+/// Name of the command-line argument for a file of measurements.
 pub const FILE: &str = "file";
 
 impl RecordOptions {
-    /// Refuses options of the record that is not taken. Values by default are none that are given.
+    /// Returns an error for options that do not apply to the kind of record in use. Default values
+    /// do not count as given.
     fn check(&self, command: &Command, matches: &ArgMatches) -> Result<(), String> {
         let is_of = |id: &Id, options: &[&str]| options.contains(&id.as_str());
         let given = |options: &[&str]| {
@@ -83,22 +85,22 @@ impl RecordOptions {
             let of_records = [&self.simulated[..], &self.of_both].concat();
             if let Some(option) = given(&of_records) {
                 return Err(format!(
-                    "--{option} is of a record of the motion, and --{instead} stands in place of \
-                     one: name the file of a record, or leave out --{option}"
+                    "--{option} applies to a record of the motion, but --{instead} replaces the \
+                     record: name the file of a record, or leave out --{option}"
                 ));
             }
         }
         match is_measured {
             true => given(&self.simulated).map(|option| {
                 format!(
-                    "--{option} is of a simulated record, and a file of measurements is given: \
-                     leave out one of the two"
+                    "--{option} applies to a simulated record, but a file of measurements is \
+                     given: leave out one of the two"
                 )
             }),
             false => given(&self.measured).map(|option| {
                 format!(
-                    "--{option} is of a file of measurements, and none is given: name the file, \
-                     or leave out --{option}"
+                    "--{option} applies to a file of measurements, but no file is given: name \
+                     the file, or leave out --{option}"
                 )
             }),
         }
@@ -110,39 +112,43 @@ fn is_given(matches: &ArgMatches, id: &Id) -> bool {
     matches.value_source(id.as_str()) == Some(ValueSource::CommandLine)
 }
 
-/// The options that all programs have: the folder of results, and a run to repeat.
+/// Names of the options that all programs have: the folder of results, and a run to repeat.
 const OUTPUT: &str = "output";
 const REPEAT: &str = "repeat";
-/// The options of programs that draw charts.
+/// Names of the options of programs that draw charts.
 const FIGURE_WIDTH: &str = "figure-width";
 const SHOW: &str = "show";
 
-/// A command line that was read.
+/// A parsed command line.
 #[derive(Debug)]
 pub struct CommandLine<A> {
     /// The options of the program.
     pub arguments: A,
-    /// The folder of results, if there is one.
+    /// The folder of results, if one is given.
     pub output: Option<PathBuf>,
-    /// What is asked of the charts.
+    /// Settings of the charts.
     pub figures: Figures,
-    /// All values as text, those by default included, for `run.json`.
+    /// Values of all options as text, including defaults, for `run.json`.
     pub values: Map<String, Value>,
+    /// Files that the repeated run has read; empty if no run is repeated.
+    pub recorded: Vec<Input>,
 }
 
-/// Reads the command line, the program's name included.
+/// Parses the command line, whose first word is the program's name.
 ///
 /// # Errors
-/// The text to be printed instead of a run: the help, or a mistake.
+/// The text to print instead of a run: the help text, or a message about a mistake.
 pub fn parse<A: Arguments>(
     words: impl IntoIterator<Item = OsString>,
 ) -> Result<CommandLine<A>, clap::Error> {
     let mut command = command::<A>();
     let given: Vec<OsString> = words.into_iter().collect();
     let mut matches = command.try_get_matches_from_mut(&given)?;
+    let mut recorded = Vec::new();
     if let Some(file) = matches.get_one::<PathBuf>(REPEAT) {
-        let words = repeated(&command, &matches, file)
+        let (words, inputs) = repeated(&command, &matches, file)
             .map_err(|message| command.error(ErrorKind::ValueValidation, message))?;
+        recorded = inputs;
         let name = given.into_iter().take(1);
         matches = command.try_get_matches_from_mut(name.chain(words))?;
     } else {
@@ -163,6 +169,7 @@ pub fn parse<A: Arguments>(
         output: matches.get_one(OUTPUT).cloned(),
         figures,
         values: values(&command, &matches),
+        recorded,
     })
 }
 
@@ -198,7 +205,7 @@ fn command<A: Arguments>() -> Command {
     }
 }
 
-/// What is asked of charts, by the options that the program has.
+/// Returns the settings of charts, from those options that the program has.
 fn figures<A: Arguments>(matches: &ArgMatches) -> Figures {
     let width = || matches.get_one(FIGURE_WIDTH).copied();
     let shown = || matches.get_one(SHOW).copied();
@@ -208,12 +215,13 @@ fn figures<A: Arguments>(matches: &ArgMatches) -> Figures {
     }
 }
 
-/// The words of the run that `file` records, with the output folder of this one.
+/// Returns the words of the command line that `file` records, with the output folder of this run,
+/// and the files that the recorded run has read.
 fn repeated(
     command: &Command,
     matches: &ArgMatches,
     file: &std::path::Path,
-) -> Result<Vec<OsString>, String> {
+) -> Result<(Vec<OsString>, Vec<Input>), String> {
     let ids = command.get_arguments().map(|argument| argument.get_id());
     let mut others = ids.filter(|id| *id != OUTPUT && *id != REPEAT);
     if let Some(id) = others.find(|id| is_given(matches, id)) {
@@ -224,7 +232,7 @@ fn repeated(
     let shown = file.display();
     let text = std::fs::read(file).map_err(|error| format!("cannot read {shown}: {error}"))?;
     let record: Value = serde_json::from_slice(&text)
-        .map_err(|error| format!("{shown} is no run.json: {error}"))?;
+        .map_err(|error| format!("{shown} is not a run.json: {error}"))?;
     let program = record["program"].as_str().unwrap_or("nothing");
     if program != command.get_name() {
         return Err(format!("{shown} records a run of {program}"));
@@ -248,10 +256,16 @@ fn repeated(
         words.push("--output".into());
         words.push(folder.into());
     }
-    Ok(words)
+    // Records of older versions have none.
+    let inputs = match &record[INPUTS] {
+        Value::Null => Vec::new(),
+        inputs => serde_json::from_value(inputs.clone())
+            .map_err(|error| format!("{shown}: `{INPUTS}` cannot be read: {error}"))?,
+    };
+    Ok((words, inputs))
 }
 
-/// All values of the program's own options, as they would be written.
+/// Returns the values of all options of the program, as they would be written on a command line.
 fn values(command: &Command, matches: &ArgMatches) -> Map<String, Value> {
     let mut values = Map::new();
     for argument in command.get_arguments() {
@@ -268,18 +282,18 @@ fn values(command: &Command, matches: &ArgMatches) -> Map<String, Value> {
     values
 }
 
-/// Reads a width in millimetres, with the unit or without.
+/// Parses a width in millimetres, with or without the unit.
 fn millimetres(text: &str) -> Result<f64, String> {
     number(66.0..=400.0, "mm")(text.trim_end_matches("mm"))
 }
 
-/// The parts of a list that stand between commas.
+/// Iterates over the parts of a list that is separated by commas.
 pub fn parts(text: &str) -> impl Iterator<Item = &str> {
     let parts = text.split(',').map(str::trim);
     parts.filter(|part| !part.is_empty())
 }
 
-/// Reads a number within a range, in the unit that messages name.
+/// Returns a parser of numbers within a range, whose messages name the unit.
 pub fn number(
     range: RangeInclusive<f64>,
     unit: &'static str,
@@ -291,7 +305,7 @@ pub fn number(
     }
 }
 
-/// Reads numbers and ranges of numbers, all within a range, and sorts them.
+/// Returns a parser of numbers and ranges of numbers, all within a range; the result is sorted.
 pub fn numbers(
     range: RangeInclusive<f64>,
     unit: &'static str,
@@ -318,7 +332,7 @@ pub fn numbers(
 /// Most numbers of one range.
 const MOST_NUMBERS: f64 = 10_000.0;
 
-/// A number, or those of a range `FROM:TO:STEP`, both ends included.
+/// Parses a number, or the numbers of a range `FROM:TO:STEP`, both ends included.
 fn read_range(part: &str) -> Result<Vec<f64>, String> {
     let read = |number: &str| match number.trim().parse::<f64>() {
         Ok(number) if number.is_finite() => Ok(number),
@@ -330,8 +344,8 @@ fn read_range(part: &str) -> Result<Vec<f64>, String> {
     let numbers: Vec<f64> = numbers.collect::<Result<_, _>>()?;
     let no_range = || {
         format!(
-            "`{part}` is no range: write `FROM:TO:STEP`, as in `40:48:0.1`, with at most \
-             10000 steps that lead from one end to the other"
+            "`{part}` is not a range: write `FROM:TO:STEP`, as in `40:48:0.1`, with at most \
+             10000 steps from one end to the other"
         )
     };
     let [from, to, step] = *numbers else {
@@ -353,14 +367,14 @@ fn read_range(part: &str) -> Result<Vec<f64>, String> {
         .collect())
 }
 
-/// Tells a range, as `must be from 0.1 to 1000 s`.
+/// Describes a range, as in `must be from 0.1 to 1000 s`.
 pub fn must_be(range: &RangeInclusive<f64>, unit: &str) -> String {
     let (low, high) = (plain(*range.start()), plain(*range.end()));
     let gap = if unit.is_empty() { "" } else { " " };
     format!("must be from {low} to {high}{gap}{unit}")
 }
 
-/// A number as one writes it: with an exponent where it is small or large.
+/// Formats a number, with an exponent if it is very small or large.
 pub fn plain(value: f64) -> String {
     if value != 0.0 && !(1e-3..1e6).contains(&value.abs()) {
         format!("{value:e}")
@@ -369,10 +383,10 @@ pub fn plain(value: f64) -> String {
     }
 }
 
-/// Reads the command line of a test, without the program's name.
+/// Parses the command line of a test, without the program's name.
 ///
 /// # Errors
-/// The text that would be printed.
+/// The text that would be printed instead of a run.
 pub fn parse_line<A: Arguments>(line: &str) -> Result<A, String> {
     let name = A::command().get_name().to_owned();
     let words = std::iter::once(name.as_str()).chain(line.split_whitespace());

@@ -1,4 +1,4 @@
-//! Charts as figures of a paper: `--figure-width` and `--show`.
+//! Options for charts as figures of a paper: `--figure-width` and `--show`.
 
 use std::fmt;
 
@@ -6,37 +6,37 @@ use branched_pendulum_charts::Chart;
 
 use crate::failure::Failure;
 
-/// The charts of a program, by the options that they have.
+/// Kinds of charts of a program, which determine the options that apply.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Charts {
-    /// None.
+    /// The program has no charts.
     None,
-    /// Charts whose width may be asked for.
+    /// The program draws charts, whose width can be set, but none with a time axis.
     Any,
-    /// Some of them over time, of which a span may be asked for.
+    /// The program has charts over time, whose time span can be set too.
     OverTime,
 }
 
-/// What is asked of charts.
+/// Options of charts.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Figures {
-    /// Width as figures of a paper, mm.
+    /// Width of figures for a paper, in mm.
     pub width: Option<f64>,
-    /// Time that charts over time show.
+    /// Time span that charts over time show; `None` for the whole span.
     pub shown: Option<TimeSpan>,
 }
 
 /// A span of time, s.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TimeSpan {
-    /// Where it begins.
+    /// Start of the span, s.
     pub from: f64,
-    /// Where it ends, later.
+    /// End of the span in s, later than its start.
     pub to: f64,
 }
 
 impl Figures {
-    /// The chart as it is asked for.
+    /// Returns a copy of a chart with the requested width.
     pub(crate) fn of(&self, chart: &Chart) -> Chart {
         match self.width {
             Some(width) => chart.clone().figure(width),
@@ -44,10 +44,10 @@ impl Figures {
         }
     }
 
-    /// The chart, whose x axis is time in s, over the time that is asked for.
+    /// Returns a chart, whose x axis is time in s, restricted to the requested span.
     ///
     /// # Errors
-    /// [`Failure::Lacking`] where none of its samples is from that time.
+    /// [`Failure::Lacking`] if it has no sample in that span.
     pub(crate) fn over_time(&self, chart: &Chart) -> Result<Chart, Failure> {
         let chart = chart.clone();
         let Some(shown @ TimeSpan { from, to }) = self.shown else {
@@ -62,10 +62,10 @@ impl Figures {
 }
 
 impl TimeSpan {
-    /// Reads `FROM:TO`.
+    /// Parses `FROM:TO`.
     ///
     /// # Errors
-    /// What is wrong, with what to write.
+    /// A message about the mistake, with what to write.
     pub(crate) fn read(text: &str) -> Result<Self, String> {
         let number = |part: &str| part.trim().parse().ok().filter(|at: &f64| at.is_finite());
         let ends = text.split_once(':');
@@ -80,13 +80,13 @@ impl TimeSpan {
         }
     }
 
-    /// Refuses a span that has nothing of the time from `first` to `last`.
+    /// Returns an error if the span contains no time from `first` to `last` (s).
     pub(crate) fn check(self, first: f64, last: f64) -> Result<(), String> {
         match self.from < last && self.to > first {
             true => Ok(()),
             false => Err(format!(
-                "`--show {self}` has nothing of the motion, which goes from {first} to {last} s: \
-                 choose a span of that"
+                "`--show {self}` contains nothing of the motion, which lasts from {first} to \
+                 {last} s: choose a span within these times"
             )),
         }
     }
@@ -109,7 +109,7 @@ mod tests {
         for (text, from, to) in [("2:10", 2.0, 10.0), ("-1: 0.5", -1.0, 0.5)] {
             assert_eq!(read(text), Ok(TimeSpan { from, to }));
         }
-        for (text, told) in [
+        for (text, reported) in [
             ("10:2", "write `2:10`"),
             ("3:3", "it is empty"),
             ("3", "write `FROM:TO`"),
@@ -117,7 +117,7 @@ mod tests {
             ("1:2:3", "write `FROM:TO`"),
         ] {
             let error = read(text).expect_err(text);
-            assert!(error.contains(told), "{text}: {error}");
+            assert!(error.contains(reported), "{text}: {error}");
         }
     }
 

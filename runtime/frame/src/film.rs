@@ -1,11 +1,12 @@
-//! Links of a model as those of a film, whose angles are from the downward vertical.
+//! Conversion of a model's links to those of a film, whose angles are measured from the downward
+//! vertical.
 
 use std::f64::consts::PI;
 
 use branched_pendulum::Positions;
 use branched_pendulum_charts::FilmLink;
 
-/// The links of a model, from pivot to end.
+/// Returns the links of a model for a film, each from its pivot to its end.
 pub fn links<P: Positions<f64>>(model: &P) -> Vec<FilmLink> {
     let links = (0..).map_while(|link| model.properties_of(link));
     let across = if model.stands() { -1.0 } else { 1.0 };
@@ -19,7 +20,7 @@ pub fn links<P: Positions<f64>>(model: &P) -> Vec<FilmLink> {
         .collect()
 }
 
-/// The angles of a model from the downward vertical.
+/// Returns the angles of a model measured from the downward vertical, in rad.
 pub fn angles<P: Positions<f64>>(model: &P, theta: &[f64]) -> Vec<f64> {
     let theta = theta.iter();
     match model.stands() {

@@ -1,5 +1,4 @@
-//! One run of a program: what it prints, the files that it leaves, and the
-//! record of both.
+//! One run of a program: its printed text, the files that it writes, and the record of both.
 
 use std::cell::{Cell, RefCell};
 use std::fs;
@@ -7,22 +6,25 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex};
 
-use branched_pendulum_charts::{Chart, Film};
+use branched_pendulum_charts::{Chart, ChartError, Film};
 use branched_pendulum_data::{Column, CsvError, CsvWriter};
-use serde_json::{Map, Value, json};
+use serde_json::{Map, Value};
 
 use super::figures::{Figures, TimeSpan};
-use super::files::{CHECKPOINT, Ledger, Part, SharedLedger, locked, replace};
+use super::files::{Ledger, Part, SharedLedger, locked};
+use super::input::Input;
 use super::interruption::Interruption;
+use super::legible::legible;
 use super::lock::FolderLock;
 use super::progress::Progress;
+use super::record::{Record, earlier};
 use super::sealed::RunIdentity;
+
+pub use super::record::{Ended, RECORD};
 use crate::failure::Failure;
 
-/// Name of the record of a run.
-pub const RECORD: &str = "run.json";
-
-/// Options that say how a run is computed, which part of it, and how it is drawn, but not what.
+/// Names of the options that determine how a run is computed, which part of it, and how it is
+/// drawn, but not its results.
 const MANNER: [&str; 6] = [
     "shard",
     "merge",
@@ -32,92 +34,6 @@ const MANNER: [&str; 6] = [
     "show",
 ];
 
-/// How a run ended.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Ended {
-    /// Everything is there.
-    Finished,
-    /// Ctrl-C, or the system's request to end.
-    Interrupted,
-    /// A failure, in its own words.
-    Failed(String),
-}
-
-/// The record of a run, beside its results: who ran, with which arguments, how
-/// it ended, and which files it left. The arguments are what `--repeat` reads.
-#[derive(Debug)]
-pub(super) struct Record {
-    pub(super) program: String,
-    folder: Option<PathBuf>,
-    /// True if the folder was not there before.
-    made: bool,
-    /// No other run writes into the folder until the record is written.
-    lock: Option<FolderLock>,
-    arguments: Map<String, Value>,
-    report: Map<String, Value>,
-    closed: bool,
-}
-
-impl Record {
-    /// Takes away what is half written, and writes the record beside the files
-    /// that are complete; without any, takes an empty folder away that was made
-    /// for them. Returns a sentence about what is there, none for a run without a
-    /// folder. A record that is closed stays as it is.
-    ///
-    /// No file begins or takes its name meanwhile: the ledger is the caller's.
-    pub(super) fn close(
-        &mut self,
-        ended: &Ended,
-        ledger: &mut Ledger,
-    ) -> Result<Option<String>, Failure> {
-        for part in ledger.parts.drain(..) {
-            let _ = fs::remove_file(part);
-        }
-        let Some(folder) = &self.folder else {
-            return Ok(None);
-        };
-        let mut files = ledger.files.clone();
-        files.retain(|file| file != RECORD);
-        let goes_on = folder.join(CHECKPOINT).exists();
-        if files.is_empty() && !goes_on {
-            self.lock = None;
-            if self.made {
-                let _ = fs::remove_dir(folder);
-            }
-            return Ok(Some("no file was finished".to_owned()));
-        }
-        let shown = folder.display();
-        let left = match files.len() {
-            _ if goes_on => format!("the same command goes on from the checkpoint in {shown}"),
-            1 => format!("1 file is in {shown}"),
-            count => format!("{count} files are in {shown}"),
-        };
-        if std::mem::replace(&mut self.closed, true) {
-            return Ok(Some(left));
-        }
-        let ended = match ended {
-            Ended::Finished => "finished".to_owned(),
-            Ended::Interrupted => "interrupted".to_owned(),
-            Ended::Failed(message) => format!("failed: {message}"),
-        };
-        let record = json!({
-            "program": self.program,
-            "version": env!("CARGO_PKG_VERSION"),
-            "system": format!("{} {}", std::env::consts::ARCH, std::env::consts::OS),
-            "arguments": self.arguments,
-            "report": self.report,
-            "ended": ended,
-            "files": files,
-        });
-        let path = folder.join(RECORD);
-        replace(&path, format!("{record:#}\n").as_bytes())
-            .map_err(|source| Failure::File { path, source })?;
-        ledger.files.push(RECORD.to_owned());
-        self.lock = None;
-        Ok(Some(left))
-    }
-}
-
 /// One run of a program.
 #[derive(Debug)]
 pub struct Job {
@@ -126,27 +42,29 @@ pub struct Job {
     pub(super) progress: Arc<Mutex<Progress>>,
     pub(super) interruption: Arc<Interruption>,
     folder: Option<PathBuf>,
-    /// What is asked of charts.
+    /// Settings of charts.
     figures: Figures,
-    /// Nobody reads the standard output any more.
+    /// Files that were read by the run which this one repeats.
+    recorded: Vec<Input>,
+    /// True if the standard output has been closed by its reader.
     closed: Cell<bool>,
-    /// Text that tests read in place of the standard output.
+    /// Buffer for the printed text, which tests read instead of the standard output.
     kept: Option<RefCell<String>>,
 }
 
 impl Job {
-    /// Starts a run whose results go into `folder`, which is made with those
-    /// above it unless it is there: before the work, so that a folder that
-    /// cannot be made costs none.
+    /// Starts a run whose results are written into `folder`. The folder is created before the
+    /// computation, so that an error does not waste the work.
     ///
     /// # Errors
-    /// [`Failure::Folder`]; [`Failure::Busy`] while another run writes there.
+    /// [`Failure::Folder`]; [`Failure::Busy`] if another run is writing there.
     pub fn start(
         program: &str,
         folder: Option<PathBuf>,
         arguments: Map<String, Value>,
     ) -> Result<Self, Failure> {
         let (mut made, mut lock) = (false, None);
+        let mut ledger = Ledger::default();
         if let Some(path) = &folder {
             made = !path.exists();
             let source = |source| Failure::Folder {
@@ -157,15 +75,22 @@ impl Job {
                 return Err(source(io::Error::other("it is a file")));
             }
             fs::create_dir_all(path).map_err(source)?;
-            lock = Some(FolderLock::take(path, program)?);
+            let taken = FolderLock::take(path, program)?;
+            let earlier = earlier(path).map_err(|source| Failure::File {
+                path: path.join(RECORD),
+                source,
+            })?;
+            ledger = Ledger::new(&taken, earlier);
+            lock = Some(taken);
         }
-        let ledger = SharedLedger::default();
+        let ledger = SharedLedger::new(Mutex::new(ledger));
         let record = Record {
             program: program.to_owned(),
             folder: folder.clone(),
             made,
             lock,
             arguments,
+            inputs: Vec::new(),
             report: Map::new(),
             closed: false,
         };
@@ -176,22 +101,57 @@ impl Job {
             interruption: Arc::default(),
             folder,
             figures: Figures::default(),
+            recorded: Vec::new(),
             closed: Cell::new(false),
             kept: None,
         })
     }
 
-    /// Draws charts like that from now on.
+    /// Sets how charts are drawn from now on.
     pub fn with_figures(self, figures: Figures) -> Self {
         Self { figures, ..self }
     }
 
-    /// Time that charts over time show, where it was asked for.
+    /// Compares the files that are read from now on with those that a recorded run has read.
+    pub fn with_recorded(self, recorded: Vec<Input>) -> Self {
+        Self { recorded, ..self }
+    }
+
+    /// Records a file that the run reads; its content is part of the identity of the run.
+    ///
+    /// # Errors
+    /// [`Failure::Changed`] if the run repeats another one that read a different content.
+    pub fn input(&self, input: Input) -> Result<(), Failure> {
+        let mut same = self.recorded.iter();
+        let same = same.find(|recorded| recorded.name() == input.name());
+        if let Some(difference) = same.and_then(|recorded| recorded.difference(&input)) {
+            return Err(Failure::Changed { difference });
+        }
+        let mut record = locked(&self.record);
+        if !record.inputs.contains(&input) {
+            record.inputs.push(input);
+        }
+        Ok(())
+    }
+
+    /// Records the file at `path` as one that the run reads.
+    ///
+    /// # Errors
+    /// [`Failure::Changed`]; [`Failure::Unread`].
+    pub fn input_file(&self, path: &Path) -> Result<(), Failure> {
+        let input = Input::of_file(path).map_err(|source| Failure::Unread {
+            path: path.to_path_buf(),
+            source,
+        })?;
+        input.map_or(Ok(()), |input| self.input(input))
+    }
+
+    /// Returns the time span that charts over time show, if one is requested.
     pub fn shown(&self) -> Option<TimeSpan> {
         self.figures.shown
     }
 
-    /// A run of a test, which prints nothing.
+    /// Starts a run for a test, which prints nothing.
     ///
     /// # Errors
     /// [`Failure::Folder`].
@@ -201,12 +161,13 @@ impl Job {
         Ok(job)
     }
 
-    /// Prints text. A reader that closes the pipe has read enough: the run goes
-    /// on for the sake of its files, and prints no more.
+    /// Prints text, in which numbers that are not finite are replaced by words. If the reader
+    /// closes the pipe, the run continues if it writes files, but prints no more.
     ///
     /// # Errors
-    /// [`Failure::Print`], or [`Failure::Closed`] where there are no files.
+    /// [`Failure::Print`], or [`Failure::Closed`] if the run writes no files.
     pub fn print(&self, text: &str) -> Result<(), Failure> {
+        let text: &str = &legible(text);
         if let Some(kept) = &self.kept {
             kept.borrow_mut().push_str(text);
             return Ok(());
@@ -230,43 +191,43 @@ impl Job {
         }
     }
 
-    /// Text that a run of a test would have printed.
+    /// Returns the text that a run of a test would have printed.
     pub fn printed(&self) -> String {
         let kept = self.kept.as_ref();
         kept.map_or(String::new(), |kept| kept.borrow().clone())
     }
 
-    /// Shows the progress of `parts` parts from now on.
+    /// Starts to show the progress of `parts` parts.
     pub fn progress(&self, parts: usize) -> Progress {
         let progress = Progress::new(parts);
         *locked(&self.progress) = progress.clone();
         progress
     }
 
-    /// Takes Ctrl-C from now on, when there are results to write: it ends the run no more,
-    /// but [`is_interrupted`](Self::is_interrupted) says that it came, for a program that
-    /// then stops its work and writes them. A second one ends the run.
+    /// Lets the program handle Ctrl-C from now on, because there are results to write. The first
+    /// one does not end the run, but makes [`is_interrupted`](Self::is_interrupted) return true, so
+    /// that the program can stop its work and write them. A second one ends the run.
     pub fn take_interruption(&self) {
         self.interruption.take();
     }
 
-    /// Returns true where Ctrl-C came that the program takes.
+    /// Returns true if Ctrl-C has been pressed and the program handles it.
     pub fn is_interrupted(&self) -> bool {
         self.interruption.signal().is_some()
     }
 
-    /// Puts a value into the record.
+    /// Adds a value to the record of the run.
     pub fn report(&self, name: &str, value: impl Into<Value>) {
         let mut record = locked(&self.record);
         record.report.insert(name.to_owned(), value.into());
     }
 
-    /// The folder of results, if there is one.
+    /// Returns the folder of results, if there is one.
     pub fn folder(&self) -> Option<&Path> {
         self.folder.as_deref()
     }
 
-    /// Identity of the run, whichever part of it this process does.
+    /// Returns the identity of the run, independent of the part that this process computes.
     pub fn identity(&self) -> RunIdentity {
         let record = locked(&self.record);
         let mut arguments = record.arguments.clone();
@@ -275,6 +236,7 @@ impl Job {
             program: record.program.clone(),
             version: env!("CARGO_PKG_VERSION").to_owned(),
             arguments: Value::Object(arguments).to_string(),
+            inputs: record.inputs.clone(),
         }
     }
 
@@ -296,7 +258,7 @@ impl Job {
         })
     }
 
-    /// Writes a table of results whose rows `rows` gives to a writer.
+    /// Writes a table of results; `rows` writes its rows.
     ///
     /// # Errors
     /// [`Failure::File`] or [`Failure::Csv`].
@@ -317,10 +279,24 @@ impl Job {
         let part = Part::create(folder, name, &self.ledger).map_err(failed)?;
         let mut writer = CsvWriter::new(part, &path, columns)?;
         rows(&mut writer)?;
-        writer.finish()?.finish().map_err(failed)
+        let empty = writer.empty_cells();
+        writer.finish()?.finish().map_err(failed)?;
+        if empty > 0 {
+            let mut record = locked(&self.record);
+            let cells = record
+                .report
+                .entry("empty_cells")
+                .or_insert(serde_json::json!({}));
+            cells[name] = serde_json::json!({
+                "count": empty,
+                "reason": "no finite number follows from the data there",
+            });
+        }
+        Ok(())
     }
 
-    /// Draws a chart as SVG, PNG and PDF; `name` has no extension.
+    /// Draws a chart as SVG, PNG and PDF; `name` has no extension. If nothing of a series can be
+    /// drawn, the chart is left out, and a sentence is printed.
     ///
     /// # Errors
     /// [`Failure::Chart`] or [`Failure::File`].
@@ -329,20 +305,27 @@ impl Job {
             return Ok(());
         }
         let chart = self.figures.of(chart);
-        self.write(&format!("{name}.svg"), chart.to_svg()?.as_bytes())?;
+        let svg = match chart.to_svg() {
+            Err(empty @ ChartError::NothingToDraw { .. }) => {
+                return self.print(&format!("No chart `{name}`: {empty}.\n"));
+            }
+            drawn => drawn?,
+        };
+        self.write(&format!("{name}.svg"), svg.as_bytes())?;
         self.write(&format!("{name}.pdf"), &chart.to_pdf()?)?;
         self.write(&format!("{name}.png"), &chart.to_png()?)
     }
 
-    /// Draws a chart whose x axis is time in s, over the time that was asked for.
+    /// Draws a chart whose x axis is time in s, restricted to the requested time span.
     ///
     /// # Errors
-    /// As [`chart`](Self::chart); [`Failure::Lacking`] where it has nothing of that time.
+    /// As [`chart`](Self::chart); [`Failure::Lacking`] if it has no values in that span.
     pub fn chart_over_time(&self, name: &str, chart: &Chart) -> Result<(), Failure> {
         self.chart(name, &self.figures.over_time(chart)?)
     }
 
-    /// Refuses a time to be shown where no chart is over time, because of that option.
+    /// Returns an error if a time span is requested although, because of `option`, no chart is over
+    /// time.
     ///
     /// # Errors
     /// [`Failure::Lacking`].
@@ -350,7 +333,7 @@ impl Job {
         match self.figures.shown {
             None => Ok(()),
             Some(_) => Err(Failure::Lacking {
-                what: format!("no chart of `{option}` is over time: leave out `--show`"),
+                what: format!("`{option}` draws no chart against time: leave out `--show`"),
             }),
         }
     }
@@ -367,18 +350,18 @@ impl Job {
         self.write(&format!("{name}.png"), &film.to_png()?)
     }
 
-    /// Names of the files that are complete, in the order of writing.
+    /// Returns the names of the complete files, in the order in which they were written.
     pub fn files(&self) -> Vec<String> {
         locked(&self.ledger).files.clone()
     }
 
-    /// Returns true where nobody reads the standard output any more.
+    /// Returns true if the standard output has been closed by its reader.
     pub fn is_closed(&self) -> bool {
         self.closed.get()
     }
 
-    /// Writes the record and, after a run that finished, prints the list of
-    /// files. Returns a sentence about them, none for a run without a folder.
+    /// Writes the record of the run and, if the run finished, prints the list of files. Returns a
+    /// sentence about the files; `None` for a run without a folder.
     ///
     /// # Errors
     /// [`Failure::File`] or [`Failure::Print`].

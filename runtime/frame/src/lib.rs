@@ -1,15 +1,16 @@
-//! The frame that all programs share: how one starts, shows its progress, keeps
-//! its results and ends.
+//! Common parts of all programs: start, progress display, storage of results and exit.
 //!
 //! - [`command_line`]: options, `--output` and `--repeat`,
-//! - [`job`]: one run: what it prints, its files, its `run.json`,
+//! - [`job`]: one run: the text that it prints, its files; `record`: its `run.json`,
 //! - [`figures`]: charts as figures of a paper,
-//! - [`files`]: files that are whole or absent,
+//! - [`files`]: files that are either complete or absent,
+//! - [`input`]: content of the files that a run reads,
+//! - `owned`: files that this project has created, apart from all others,
 //! - `lock`: one run at a time in a folder,
 //! - [`progress`]: a bar on a terminal.
 //!
 //! A program ends with 0 where it is done, 1 after a failure, 2 for a wrong
-//! command line, 130 after Ctrl-C and 143 where it was told to end. All but the
+//! command line, 130 after Ctrl-C and 143 where it was terminated. All but the
 //! first say so in one line, with the folder of what was finished.
 
 pub mod checkpoint;
@@ -18,12 +19,16 @@ pub mod failure;
 pub mod figures;
 pub mod files;
 pub mod film;
+pub mod input;
 mod interrupt;
 mod interruption;
 pub mod job;
+mod legible;
 mod lock;
+mod owned;
 pub mod progress;
 pub mod quadrature;
+mod record;
 pub mod sealed;
 pub mod sweep;
 mod sweep_error;
@@ -37,17 +42,18 @@ pub use checkpoint::Checkpoint;
 pub use command_line::{Arguments, CommandLine, RecordOptions};
 pub use failure::Failure;
 pub use figures::Charts;
+pub use input::Input;
 pub use job::{Ended, Job};
 pub use progress::Progress;
 pub use sweep::Sharding;
 
-/// Reads the command line of the process and runs the program.
+/// Parses the command line of the process, runs the program, and returns its exit code.
 pub fn main<A: Arguments>(run: impl FnOnce(&A, &Job) -> Result<(), Failure>) -> ExitCode {
     self::run(std::env::args_os(), run)
 }
 
-/// Prints what the reader of a command line says in place of a run, the help or a mistake, and
-/// returns the exit code: 0 for the help and for nothing to say.
+/// Prints the text that is shown instead of a run (the help text, or a mistake), and returns the
+/// exit code: 0 for the help text, and if there is nothing to print.
 pub fn answer(answer: Option<clap::Error>) -> ExitCode {
     let Some(answer) = answer else {
         return ExitCode::SUCCESS;
@@ -59,7 +65,7 @@ pub fn answer(answer: Option<clap::Error>) -> ExitCode {
     }
 }
 
-/// Reads a command line, which begins with the program's name, and runs the program.
+/// Parses a command line, whose first word is the program's name, and runs the program.
 pub fn run<A: Arguments>(
     words: impl IntoIterator<Item = OsString>,
     run: impl FnOnce(&A, &Job) -> Result<(), Failure>,
@@ -69,6 +75,7 @@ pub fn run<A: Arguments>(
         output: mut folder,
         figures,
         values,
+        recorded,
     } = match command_line::parse::<A>(words) {
         Ok(line) => line,
         Err(error) => return answer(Some(error)),
@@ -77,14 +84,16 @@ pub fn run<A: Arguments>(
     if let (Some(folder), Some(shard)) = (&mut folder, arguments.shard()) {
         folder.push(shard.folder());
     }
+    // Before the job owns a folder: from then on a signal must find its handler.
+    let signals = interrupt::register();
     let job = match Job::start(&name, folder, values) {
-        Ok(job) => job.with_figures(figures),
+        Ok(job) => job.with_figures(figures).with_recorded(recorded),
         Err(failure) => {
             say(&name, &messages(&failure).join(": "));
             return ExitCode::FAILURE;
         }
     };
-    interrupt::watch(&job);
+    interrupt::watch(signals, &job);
     let result = run(&arguments, &job);
     let signal = job.interruption.signal();
     let ended = match &result {
@@ -115,8 +124,8 @@ pub fn run<A: Arguments>(
     }
 }
 
-/// Writes all bytes to the standard output and returns the exit code: 0, too, where its reader
-/// has read enough.
+/// Writes all bytes to the standard output and returns the exit code, which is also 0 if the reader
+/// has closed it.
 pub fn write_out(bytes: &[u8]) -> ExitCode {
     use std::io::Write;
     let mut out = std::io::stdout().lock();
@@ -132,7 +141,7 @@ fn say(program: &str, text: &str) {
     let _ = writeln!(std::io::stderr(), "{program}: {text}");
 }
 
-/// Messages of an error and of its causes, the outermost first.
+/// Returns the messages of an error and of its causes, the outermost first.
 pub fn messages(error: &dyn Error) -> Vec<String> {
     let mut messages = vec![error.to_string()];
     let mut cause = error.source();

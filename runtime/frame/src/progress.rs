@@ -1,5 +1,5 @@
-//! The progress of a run: a bar on a terminal, a line for each part on a
-//! terminal that cannot go back, nothing elsewhere.
+//! Display of a run's progress: a bar on a terminal, a line for each part on a terminal without
+//! cursor control, nothing otherwise.
 
 use std::io::{IsTerminal, Write};
 use std::sync::{Arc, Mutex};
@@ -9,19 +9,19 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use super::files::locked;
 
-/// Steps of the bar in one part.
+/// Number of steps of the progress bar for one part of the run.
 const STEPS: u64 = 1000;
 
-/// The bar, as wide as the terminal.
+/// Format of the progress bar, which is as wide as the terminal.
 const STYLE: &str = "{wide_bar} {percent:>3} %, {eta} left, {msg} ";
 
-/// The progress of a run in parts; copies show the same.
+/// Progress of a run in several parts. All copies of this value show the same bar.
 #[derive(Clone, Debug)]
 pub struct Progress {
     bar: ProgressBar,
-    /// Steps done, with shares of one.
+    /// Number of completed parts of the run, including the completed fraction of the current part.
     done: Arc<Mutex<f64>>,
-    /// Lines in place of a bar.
+    /// True if lines are printed instead of a bar.
     lines: bool,
 }
 
@@ -37,7 +37,7 @@ impl Default for Progress {
 
 impl Progress {
     pub(super) fn new(parts: usize) -> Self {
-        // Hides itself where there is no terminal, or one without a cursor.
+        // Hides itself if there is no terminal, or one without a cursor.
         let target = ProgressDrawTarget::stderr_with_hz(10);
         let lines = target.is_hidden() && std::io::stderr().is_terminal();
         let bar = ProgressBar::with_draw_target(Some(STEPS * parts as u64), target);
@@ -51,7 +51,7 @@ impl Progress {
         }
     }
 
-    /// Names the part that begins.
+    /// Shows the name of the part that begins now.
     pub fn begin(&self, what: &str) {
         self.bar.set_message(what.to_owned());
         if self.lines {
@@ -61,32 +61,31 @@ impl Progress {
         }
     }
 
-    /// Shows what has been reached beside the bar.
-    pub fn tell(&self, what: &str) {
+    /// Shows a message about the present result next to the progress bar.
+    pub fn show_message(&self, what: &str) {
         self.bar.set_message(what.to_owned());
     }
 
-    /// Shows that of the part `index` the share `share` is done, 0 to 1.
+    /// Shows that the fraction `share` (0 to 1) of part number `index` is completed.
     pub fn within(&self, index: usize, share: f64) {
         let mut done = locked(&self.done);
         *done = STEPS as f64 * (index as f64 + share.clamp(0.0, 1.0));
         self.bar.set_position(done.round() as u64);
     }
 
-    /// Shows that one part more is done.
+    /// Shows that one more part is completed.
     pub fn next(&self) {
         self.advance(1.0);
     }
 
-    /// Shows that `parts` more are done; shares of parts add up to whole ones.
+    /// Shows that `parts` more parts are completed; fractions of parts add up.
     pub fn advance(&self, parts: f64) {
         let mut done = locked(&self.done);
         *done += parts * STEPS as f64;
         self.bar.set_position(done.round() as u64);
     }
 
-    /// Runs `work` with a clock that moves on: for parts of which nothing is
-    /// known until they end.
+    /// Runs `work` while the bar shows the elapsed time, for parts whose progress is unknown.
     pub fn ticking<R>(&self, work: impl FnOnce() -> R) -> R {
         self.bar.enable_steady_tick(Duration::from_millis(200));
         let result = work();
@@ -94,12 +93,12 @@ impl Progress {
         result
     }
 
-    /// Takes the bar away for what `print` does.
+    /// Hides the progress bar while `print` runs.
     pub(super) fn suspend<R>(&self, print: impl FnOnce() -> R) -> R {
         self.bar.suspend(print)
     }
 
-    /// Takes the bar away.
+    /// Removes the bar.
     pub(super) fn clear(&self) {
         self.bar.finish_and_clear();
     }

@@ -1,10 +1,10 @@
-//! Integrals over one step of an integrator.
+//! Integrals over one step of an integrator, by Gauss's quadrature.
 
 /// Nodes and weights of Gauss's quadrature with five points on 0 to 1, exact
 /// for polynomials of degree 9.
 ///
-/// Source: M. Abramowitz and I. A. Stegun, *Handbook of Mathematical
-/// Functions*, table 25.4, moved from −1…1.
+/// Source: M. Abramowitz and I. A. Stegun, *Handbook of Mathematical Functions*, table 25.4,
+/// converted from −1…1.
 pub const GAUSS: [(f64, f64); 5] = [
     (0.046_910_077_030_668, 0.118_463_442_528_094_54),
     (0.230_765_344_947_158_45, 0.239_314_335_249_683_23),

@@ -1,43 +1,73 @@
-//! Files of numbers that a program reads back itself: told from others, whole or
-//! refused, exact to the bit.
+//! Files of numbers that a program reads back itself. They are recognised by their header, accepted
+//! only if complete, and exact to the last bit.
 
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 
-/// The first line, which ends with the version of what follows: a checksum over all
-/// behind it (CRC-32, eight hexadecimal digits, a line), the run, its content, both by `postcard`.
-const HEADER: &str = "branched-pendulum data 1\n";
+use super::input::{Input, InputDifference};
 
-/// Length of the line with the checksum.
+/// Beginning of the first line of such a file, in every version of the format.
+pub(super) const MARK: &[u8] = b"branched-pendulum data ";
+
+/// The first line, which ends with the version of the format. It is followed by a line with a
+/// checksum of the rest (CRC-32, eight hexadecimal digits), by the identity of the run and by the
+/// content, both encoded by `postcard`.
+const HEADER: &str = "branched-pendulum data 2\n";
+
+/// Length in bytes of the line with the checksum.
 const CHECKSUM: usize = 9;
 
-/// Identity of a run, whoever computes it: its parts and checkpoints are of no other.
+/// Identity of a run, which does not depend on the process that computes it. Checkpoints and parts
+/// of the run are valid only for this run.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct RunIdentity {
     /// Name of the program.
     pub program: String,
     /// Version of the program.
     pub version: String,
-    /// Arguments of the program, as JSON, but for those that say how and which part of the run is
-    /// computed.
+    /// Arguments of the program, as JSON, except those that only determine how the run is computed,
+    /// or which part of it.
     pub arguments: String,
+    /// Files that the run has read, with digests of their content.
+    pub inputs: Vec<Input>,
 }
 
-/// Why a file was not read.
+/// Reason why a sealed file was rejected.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum SealError {
-    /// Another file, or one of another version of this format.
-    #[error("it is no file of this program, or of another version of it")]
+    /// The file is not a sealed file, or has another version of the format.
+    #[error("the file was not written by this version of the program")]
     Format,
-    /// Bytes were changed or are missing.
-    #[error("it is damaged: its checksum is wrong")]
+    /// Bytes of the file were changed or are missing.
+    #[error("the file is damaged: its checksum is wrong")]
     Damaged,
     /// One of another run.
-    #[error("it is of {} {} with {}", .0.program, .0.version, .0.arguments)]
+    #[error("the file belongs to another run: {} {} with {}", .0.program, .0.version, .0.arguments)]
     Run(Box<RunIdentity>),
-    /// Numbers that are none of such a run.
-    #[error("its content is not that of such a run")]
+    /// A file that the run reads has changed since the sealed file was written.
+    #[error("the file belongs to a run with other input: {0}")]
+    Input(InputDifference),
+    /// The content does not fit to a run with these arguments.
+    #[error("the file belongs to a run with different arguments")]
     Content,
+}
+
+impl RunIdentity {
+    /// Returns the error that states how this run differs from another one, `now`.
+    fn mismatch(self, now: &Self) -> SealError {
+        let inputs = Input::first_difference(&self.inputs, &now.inputs);
+        let of_run = |run: &Self| {
+            (
+                run.program.clone(),
+                run.version.clone(),
+                run.arguments.clone(),
+            )
+        };
+        match inputs {
+            Some(difference) if of_run(&self) == of_run(now) => SealError::Input(difference),
+            _ => SealError::Run(Box::new(self)),
+        }
+    }
 }
 
 /// The bytes of a file.
@@ -48,7 +78,7 @@ pub fn seal<C: Serialize>(run: &RunIdentity, content: &C) -> Result<Vec<u8>, Sea
     Ok(bytes)
 }
 
-/// The content of a file of this run.
+/// Returns the content of a sealed file, after checking that it belongs to this run.
 ///
 /// # Errors
 /// [`SealError`].
@@ -62,7 +92,7 @@ pub fn open<C: DeserializeOwned>(run: &RunIdentity, bytes: &[u8]) -> Result<C, S
     let (found, body) =
         postcard::take_from_bytes::<RunIdentity>(body).map_err(|_| SealError::Content)?;
     if found != *run {
-        return Err(SealError::Run(Box::new(found)));
+        return Err(found.mismatch(run));
     }
     match postcard::take_from_bytes(body) {
         Ok((content, [])) => Ok(content),
@@ -72,13 +102,14 @@ pub fn open<C: DeserializeOwned>(run: &RunIdentity, bytes: &[u8]) -> Result<C, S
 
 #[cfg(test)]
 mod tests {
-    use super::{RunIdentity, SealError, open, seal};
+    use super::{Input, RunIdentity, SealError, open, seal};
 
     fn run(arguments: &str) -> RunIdentity {
         RunIdentity {
             program: "test".to_owned(),
             version: "1".to_owned(),
             arguments: arguments.to_owned(),
+            inputs: Vec::new(),
         }
     }
 
@@ -114,5 +145,41 @@ mod tests {
         let other = open::<Vec<f64>>(&run("{\"seed\":\"2\"}"), &bytes);
         assert_eq!(other, Err(SealError::Run(Box::new(run("{}")))));
         assert_eq!(open::<String>(&run("{}"), &bytes), Err(SealError::Content));
+    }
+
+    #[test]
+    fn other_input_is_refused_with_the_line_that_differs() {
+        let with = |texts: &[&str]| RunIdentity {
+            inputs: (0..)
+                .zip(texts)
+                .map(|(number, text)| Input::of_text(&format!("{number}.txt"), text))
+                .collect(),
+            ..run("{}")
+        };
+        let bytes = seal(&with(&["a\n", "b\nc\n"]), &1.5).unwrap();
+        let read = |texts: &[&str]| open::<f64>(&with(texts), &bytes);
+        assert_eq!(read(&["a\n", "b\nc\n"]), Ok(1.5));
+        for (texts, reported) in [
+            (
+                ["A\n", "b\nc\n"],
+                "`0.txt` has changed: line 1 was `a` and is `A`",
+            ),
+            (
+                ["a\n", "b\nd\n"],
+                "`1.txt` has changed: line 2 was `c` and is `d`",
+            ),
+            (
+                ["a\n", "b\nc\nd"],
+                "`1.txt` has changed: line 3 was `` and is `d`",
+            ),
+        ] {
+            let error = read(&texts).unwrap_err().to_string();
+            assert_eq!(
+                error,
+                format!("the file belongs to a run with other input: {reported}")
+            );
+        }
+        // Fewer files: another run.
+        assert!(matches!(read(&["a\n"]), Err(SealError::Run(_))));
     }
 }

@@ -1,9 +1,9 @@
-//! Many independent computations, shared out among processes: `--shard i/n` computes
-//! every n-th of them, `--merge n` puts the parts together.
+//! Sweeps: many independent computations, distributed among processes. `--shard i/n` computes every
+//! n-th of them, `--merge n` combines the parts.
 //!
-//! Who starts the processes is not this module's affair: a shell, Slurm, HyperQueue or
-//! Dask. Each shard leaves one part and one `run.json` in a folder of its own; a part
-//! that is there is not computed again. `sweep.json` beside them says what is swept.
+//! The processes are started by other means: a shell, Slurm, HyperQueue or Dask. Each shard writes
+//! its results and a `run.json` into a separate folder; existing results are not computed again.
+//! `sweep.json` in the common folder describes the sweep.
 
 use std::fs;
 use std::io;
@@ -13,10 +13,12 @@ use std::str::FromStr;
 use clap::Args;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
-use serde_json::json;
+use serde_json::{Value, json};
 
-use super::files::create;
+use super::files::{create, locked};
+use super::input::Input;
 use super::job::Job;
+use super::owned::{self, part_name};
 use super::sealed::{SealError, open, seal};
 use super::sweep_error::SweepError;
 use crate::failure::Failure;
@@ -24,17 +26,17 @@ use crate::failure::Failure;
 /// Name of the manifest.
 const MANIFEST: &str = "sweep.json";
 
-/// Name of the results of a shard.
+/// Name of the file with the results of a shard.
 const PART: &str = "results.bin";
 
-/// Which part of a run is computed.
+/// Command-line options that select which part of a run is computed.
 #[derive(Args, Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Sharding {
-    /// computes one shard alone: every N-th of the starts, from number I on (from 0),
-    /// into a folder of its own; what is finished there is not computed again
+    /// computes one shard only: every N-th of the starts, from number I on (from 0), into a
+    /// separate folder; finished results there are not computed again
     #[arg(long, value_name = "I/N", verbatim_doc_comment)]
     pub shard: Option<Shard>,
-    /// computes nothing: puts N shards together
+    /// computes nothing, but combines the results of N shards
     #[arg(long, value_name = "N", conflicts_with = "shard", value_parser = clap::value_parser!(u32).range(1..=100_000))]
     pub merge: Option<u32>,
 }
@@ -42,7 +44,7 @@ pub struct Sharding {
 /// One of several shards.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Shard {
-    /// Number of the shard, from 0.
+    /// Index of the shard, from 0.
     pub index: u32,
     /// Number of all.
     pub count: u32,
@@ -68,7 +70,7 @@ impl Shard {
         format!("shard-{}-of-{}", self.index, self.count)
     }
 
-    /// Returns the shard's share of `items` items.
+    /// Returns the indices of those of `items` items that the shard computes.
     pub fn items(self, items: usize) -> Vec<usize> {
         (self.index as usize..items)
             .step_by(self.count as usize)
@@ -83,8 +85,9 @@ struct ShardResults<R> {
     results: Vec<(usize, R)>,
 }
 
-/// Results of all items, in their order, by `work` on a list of them: of one shard, which leaves them as
-/// a part and returns none; of all shards, from their parts; or of all items, by itself.
+/// Computes or collects the results of all items, in order; `work` computes a list of items. For
+/// one shard, the results are written to its folder and `None` is returned. For `--merge`, the
+/// results of all shards are read. Otherwise, all items are computed.
 ///
 /// # Errors
 /// [`Failure`].
@@ -97,7 +100,7 @@ pub fn results<R: Serialize + DeserializeOwned>(
     match (sharding.shard, sharding.merge, job.folder()) {
         (Some(shard), _, Some(folder)) => {
             if let Some(sweep) = folder.parent() {
-                agree(job, sweep, shard.count, items)?;
+                agree(job, sweep, folder, shard.count, items)?;
             }
             if read::<R>(job, folder)?.is_some() {
                 job.print(&format!("{} is there\n", folder.display()))?;
@@ -114,41 +117,71 @@ pub fn results<R: Serialize + DeserializeOwned>(
             Ok(None)
         }
         (_, Some(count), Some(folder)) => {
-            agree(job, folder, count, items)?;
+            agree(job, folder, folder, count, items)?;
             merge(job, folder, count, items).map(Some)
         }
         _ => work(&(0..items).collect::<Vec<_>>()).map(Some),
     }
 }
 
-/// Writes the manifest, or checks the one that is there.
-fn agree(job: &Job, folder: &Path, shards: u32, items: usize) -> Result<(), Failure> {
+/// Writes the manifest into the folder of a sweep, or checks the existing one. It is written in
+/// `own` first, the folder that this process has locked.
+fn agree(job: &Job, sweep: &Path, own: &Path, shards: u32, items: usize) -> Result<(), Failure> {
     let run = job.identity();
     let manifest = json!({
         "program": run.program,
         "version": run.version,
         "arguments": run.arguments,
+        "inputs": serde_json::to_value(&run.inputs).unwrap_or_default(),
         "shards": shards,
         "items": items,
     });
     let expected = format!("{manifest:#}\n");
-    let path = folder.join(MANIFEST);
+    let path = sweep.join(MANIFEST);
+    let part = own.join(part_name(MANIFEST, &locked(&job.ledger).stamp));
     // Of shards that begin together one writes it, and the others find it.
-    match create(&path, expected.as_bytes()) {
+    match create(&path, expected.as_bytes(), part) {
         Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {}
         made => return made.map_err(|source| Failure::File { path, source }),
     }
-    match fs::read_to_string(&path) {
-        Ok(found) if found == expected => Ok(()),
-        Ok(found) => Err(SweepError::Manifest { found, expected }.into()),
-        Err(source) => Err(Failure::Unread { path, source }),
+    let found = owned::read(&path, &|_| Ok(true));
+    let found = found.map_err(|source| Failure::Unread { path, source })?;
+    match found == expected.as_bytes() {
+        true => Ok(()),
+        false => Err(differs(&String::from_utf8_lossy(&found), &manifest).into()),
     }
 }
 
-/// The part in a folder, if it is there.
+/// Returns the error that states how the existing manifest differs from the manifest of this sweep.
+fn differs(found: &str, manifest: &Value) -> SweepError {
+    let expected = format!("{manifest:#}\n");
+    let without_inputs = |manifest: &Value| {
+        let mut manifest = manifest.clone();
+        if let Some(manifest) = manifest.as_object_mut() {
+            manifest.remove("inputs");
+        }
+        manifest
+    };
+    let inputs = |manifest: &Value| -> Vec<Input> {
+        serde_json::from_value(manifest["inputs"].clone()).unwrap_or_default()
+    };
+    let read: Value = serde_json::from_str(found).unwrap_or_default();
+    let difference = Input::first_difference(&inputs(&read), &inputs(manifest));
+    match difference {
+        Some(difference) if without_inputs(&read) == without_inputs(manifest) => {
+            SweepError::Input(difference)
+        }
+        _ => SweepError::Manifest {
+            found: found.to_owned(),
+            expected,
+        },
+    }
+}
+
+/// Reads the results in the folder of a shard; `None` if there are none.
 fn read<R: DeserializeOwned>(job: &Job, folder: &Path) -> Result<Option<ShardResults<R>>, Failure> {
     let path = folder.join(PART);
-    let bytes = match fs::read(&path) {
+    let bytes = match owned::read(&path, &|_| Ok(true)) {
         Ok(bytes) => bytes,
         Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(None),
         Err(source) => return Err(Failure::Unread { path, source }),
@@ -158,7 +191,7 @@ fn read<R: DeserializeOwned>(job: &Job, folder: &Path) -> Result<Option<ShardRes
         .map_err(|source| Failure::Sealed { path, source })
 }
 
-/// Puts the parts together: all of them, each once.
+/// Combines the results of all shards, after checking that each exists exactly once.
 fn merge<R: DeserializeOwned>(
     job: &Job,
     folder: &Path,

@@ -1,34 +1,43 @@
-//! Why shards do not make a whole.
+//! Errors in merging the shards of a sweep.
 
-/// Why shards do not make a whole.
+use super::input::InputDifference;
+
+/// Reason why the shards of a sweep cannot be merged.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum SweepError {
     /// The folder holds another sweep.
-    #[error("the folder holds another sweep: {found}, where {expected} is asked for")]
+    #[error("the folder holds another sweep: expected {expected}, found {found}")]
     Manifest {
-        /// Manifest of the sweep that is there.
+        /// Manifest of the sweep in the folder.
         found: String,
         /// The manifest of this one.
         expected: String,
     },
+    /// A file that the sweep reads has changed since the sweep began.
+    #[error("the folder holds a sweep with other input: {0}")]
+    Input(InputDifference),
     /// Some shards are not there.
-    #[error("{} of {count} shards are not finished: {}", missing.len(), list(missing))]
+    #[error("{} of {count} shards are not finished: {}; run them first", missing.len(), list(missing))]
     Gaps {
         /// Their numbers.
         missing: Vec<u32>,
         /// Number of all.
         count: u32,
     },
-    /// Shards of another number of shards.
-    #[error("{folder} is none of {count} shards: one sweep has one number of shards")]
+    /// The shards belong to a sweep with another number of shards.
+    #[error(
+        "{folder} is not part of a sweep of {count} shards: give the same number of shards to every run of a sweep"
+    )]
     Foreign {
         /// Name of a folder.
         folder: String,
         /// Number of shards asked for.
         count: u32,
     },
-    /// A part that holds other items than its shard has.
-    #[error("{folder} does not hold the items of its shard, once each")]
+    /// The results of a shard do not belong to the items of that shard.
+    #[error(
+        "{folder} does not contain every item of its shard exactly once: delete it and run the shard again"
+    )]
     Items {
         /// Name of its folder.
         folder: String,

@@ -1,7 +1,7 @@
-//! Neighbours among the angles of a scan.
+//! Windows (runs of neighbouring angles) in a scan.
 
-/// Returns first and last of each run of neighbours among `count` for which `inside`
-/// holds.
+/// Returns the first and the last index of each run of neighbours, among the indices below `count`,
+/// for which `inside` returns true.
 pub fn windows(count: usize, inside: impl Fn(usize) -> bool) -> Vec<[usize; 2]> {
     let mut windows: Vec<[usize; 2]> = Vec::new();
     for index in (0..count).filter(|index| inside(*index)) {
@@ -13,8 +13,8 @@ pub fn windows(count: usize, inside: impl Fn(usize) -> bool) -> Vec<[usize; 2]> 
     windows
 }
 
-/// Tells windows of some angles in words: `43.4° to 44.8°, 46°, from 46.15°`, where the
-/// last reaches the end of the scan.
+/// Formats windows of angles (degrees) as text: `43.4° to 44.8°, 46°, from 46.15°`; the last one
+/// here extends to the end of the scan.
 pub fn words(windows: &[[usize; 2]], angles: &[f64]) -> String {
     if windows.is_empty() {
         return "nowhere".to_owned();

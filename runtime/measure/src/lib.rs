@@ -1,4 +1,4 @@
-//! What measured angles of a pendulum say, with error bars.
+//! Analysis of measured angles of a pendulum, with error bars.
 //!
 //! - [`smoothing`]: angles, velocities and accelerations behind noisy samples,
 //! - [`spectrum`]: amplitudes against frequency, and the lines of a motion,
@@ -10,8 +10,8 @@ pub mod spectrum;
 
 pub use identification::{AngleRecord, FamilyOf, Fit, Identification, IdentificationError};
 pub use smoothing::{
-    Bands, KinematicSmoother, LocalPolynomials, ModelSmoother, SmoothedCoordinates, SmoothedMotion,
-    SmoothingError, bands, running_integral,
+    Bands, KinematicSmoother, LeapSearch, LocalPolynomials, ModelSmoother, SmoothedCoordinates,
+    SmoothedMotion, SmoothingError, bands, running_integral,
 };
 pub use spectrum::{
     CombinationTone, LineSearch, Lines, Passage, Passages, SpectralLine, Spectrum, SpectrumError,

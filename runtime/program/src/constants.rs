@@ -1,4 +1,5 @@
-//! Values of the constants of a tree and offsets of its links' angles, as programs hand them on.
+//! Values of a tree's constants and offsets of its links' angles, as programs pass them to each
+//! other in files.
 
 use std::fs;
 use std::path::Path;
@@ -8,21 +9,23 @@ use branched_pendulum_trees::TreeDescription;
 use serde_json::{Map, Value};
 
 use crate::Failure;
+use crate::frame::Input;
 
-/// What a file knows of a tree.
+/// Constants of a tree, read from a file.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct KnownConstants {
     /// Values of parameters, SI units.
     pub values: Vec<(String, f64)>,
-    /// Angles that links show where they are at 0, rad.
+    /// Measured angles of links whose true angle is 0, in rad.
     pub offsets: Vec<(String, f64)>,
 }
 
 impl KnownConstants {
-    /// Reads a table of names and values (JSON), or that of the parameters in a `run.json`.
+    /// Reads a table of names and values (JSON), or the table of parameters in a `run.json`.
     ///
     /// # Errors
-    /// [`Failure::Parameters`] for what is none, and for names that the description has not.
+    /// [`Failure::Parameters`] if the file contains no such table, or a name that is not in the
+    /// description.
     pub fn read(path: &Path, description: &TreeDescription) -> Result<Self, Failure> {
         let failed = |source: Box<dyn std::error::Error + Send + Sync>| Failure::Parameters {
             path: path.to_path_buf(),
@@ -43,7 +46,7 @@ impl KnownConstants {
         for (name, value) in table {
             let Some(number) = value.as_f64() else {
                 return Err(failed(
-                    format!("`{name}` is {value}, which is no number").into(),
+                    format!("`{name}` is {value}, which is not a number").into(),
                 ));
             };
             let link = name.strip_prefix(OFFSET_OF).map(str::to_owned);
@@ -68,7 +71,14 @@ impl KnownConstants {
         Ok(known)
     }
 
-    /// Returns the table that [`read`](Self::read) reads.
+    /// Returns the values, which were read from `path`, as an input of a run: two files with the
+    /// same values count as the same input.
+    pub fn input(&self, path: &Path) -> Input {
+        let table = Value::Object(self.table());
+        Input::of_text(&path.display().to_string(), &format!("{table:#}\n"))
+    }
+
+    /// Returns the values as a table that [`read`](Self::read) accepts.
     pub fn table(&self) -> Map<String, Value> {
         let offsets = self.offsets.iter();
         let offsets = offsets.map(|(link, offset)| (format!("{OFFSET_OF}{link}"), *offset));

@@ -1,11 +1,13 @@
-//! The command `branched-pendulum` as a library, so that tests can call what it does.
+//! The program `branched-pendulum` as a library, so that tests can call its functions.
 
 pub mod budget;
 pub mod commands;
 pub mod constants;
 pub mod measured_file;
 pub mod motion;
+pub mod picture;
 pub mod release;
+pub mod rest;
 pub mod shipped;
 pub mod smoothed;
 pub mod subject;

@@ -1,4 +1,4 @@
-//! The command `branched-pendulum`: `branched-pendulum --help` lists what it does.
+//! The command-line program `branched-pendulum`; `branched-pendulum --help` lists its subcommands.
 
 use std::process::ExitCode;
 

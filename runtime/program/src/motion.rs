@@ -1,21 +1,22 @@
-//! The motion of a tree, integrated and sampled.
+//! Motion of a tree, integrated and sampled.
 
-use branched_pendulum::integrate::{AnyIntegrator, Report};
+use branched_pendulum::integrate::{AnyIntegrator, Horizon, Report};
 use branched_pendulum::prelude::*;
 
 use crate::Failure;
 use crate::frame::command_line::number;
 use crate::subject::Subject;
 
-/// Options that say how motions are integrated.
+/// Command-line options for the integration of motions.
 #[derive(Clone, Debug, clap::Args, PartialEq)]
 pub struct MethodArguments {
-    /// method: dop853, dopri5, verner98, taylor, rk4, gauss2, gauss4, gauss6, gauss8 or animation
+    /// integration method: dop853, dopri5, verner98, taylor, rk4, gauss2, gauss4, gauss6, gauss8 or
+    /// animation
     #[arg(long, value_name = "METHOD", default_value = "dop853")]
     pub method: Method,
-    /// relative error of one step, 1e-16 to 1e-2, 1e-10 unless it is given; of methods with steps
-    /// of one length the step in s, 1e-3 unless it is given
-    #[arg(verbatim_doc_comment, long, value_name = "TOL", value_parser = number(1e-16..=1e-2, ""))]
+    /// relative error of one step, 1e-16 to 0.2, by default 1e-10; for methods with constant steps
+    /// the step length in s, by default 1e-3
+    #[arg(verbatim_doc_comment, long, value_name = "TOL", value_parser = number(1e-16..=0.2, ""))]
     pub tolerance: Option<f64>,
 }
 
@@ -23,14 +24,19 @@ impl MethodArguments {
     /// Names of the options.
     pub const OPTIONS: [&str; 2] = ["method", "tolerance"];
 
-    /// Returns the method with its tolerance or step.
+    /// Returns the integration method with its tolerance or step.
     pub fn integrator(&self) -> AnyIntegrator<f64> {
+        self.method.with(self.setting())
+    }
+
+    /// Returns the tolerance of the method, or its step length in s.
+    pub fn setting(&self) -> f64 {
         let usual = if self.method.is_adaptive() {
             1e-10
         } else {
             1e-3
         };
-        self.method.with(self.tolerance.unwrap_or(usual))
+        self.tolerance.unwrap_or(usual)
     }
 }
 
@@ -45,7 +51,7 @@ pub struct SampledMotion {
     pub report: Report<f64>,
 }
 
-/// Integrates a tree and samples it at times that begin with the start's.
+/// Integrates the motion of a tree and samples it at `times`, the first of which is the start time.
 ///
 /// # Errors
 /// [`Failure::Motion`].
@@ -67,4 +73,26 @@ pub fn sample(
         states,
         report: solution.report,
     })
+}
+
+/// Integrates a sampled motion again with a tighter tolerance or step, from a start that differs by
+/// rounding. Returns, for each of the precisions (rad), the time from which on angles differ by
+/// more.
+///
+/// # Errors
+/// [`Failure::Motion`].
+pub fn horizon(
+    subject: &Subject,
+    arguments: &MethodArguments,
+    start: &State<f64>,
+    samples: &SampledMotion,
+    precisions: &[f64],
+) -> Result<Horizon<f64>, Failure> {
+    let finer = arguments.method.finer(arguments.setting());
+    let links = subject.tree.links();
+    let angles = samples.states.iter().map(|state| &state[..links]);
+    let system = AbsoluteAngles(&subject.tree);
+    let method = arguments.method.with(finer);
+    Horizon::find(&method, &system, start, &samples.times, angles, precisions)
+        .map_err(|error| Failure::Motion(Box::new(error)))
 }

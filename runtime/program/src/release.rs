@@ -1,17 +1,19 @@
-//! Where and how fast a tree starts.
+//! Initial angles and angular velocities.
 
+use branched_pendulum::analysis::Equilibrium;
 use branched_pendulum::system::{Model, State};
 
 use crate::Failure;
 use crate::frame::command_line::parts;
 use crate::subject::Subject;
 
-/// Options that say how a tree starts.
+/// Command-line options for the initial state of a tree.
 #[derive(Clone, Debug, clap::Args, PartialEq)]
 pub struct ReleaseArguments {
-    /// angles at the start from the vertical, degrees: of all links in their order, or of those
-    /// named, others being where they rest; a name without the number of a copy is all copies;
-    /// `apart`: 45° of the first link and less, a different angle, of each other one, from rest
+    /// angles at the start from the vertical, degrees: of all links in their order, or of the
+    /// named links, while all others have their angles in the stable equilibrium; a name without
+    /// the number of a copy means all copies; `apart`: 45° for the first link, and a different,
+    /// smaller angle from the equilibrium for each other one
     #[arg(
         verbatim_doc_comment,
         long,
@@ -20,7 +22,7 @@ pub struct ReleaseArguments {
         allow_hyphen_values = true
     )]
     pub start: String,
-    /// angular velocities at the start, degrees/s, written alike; those not named are zero
+    /// angular velocities at the start, degrees/s, in the same form; those of other links are zero
     #[arg(
         verbatim_doc_comment,
         long,
@@ -38,14 +40,11 @@ impl ReleaseArguments {
     /// Returns the state at the start.
     ///
     /// # Errors
-    /// [`Failure::Start`] for what is no list of numbers, or one of another length than there are
-    /// links, [`Failure::NoLink`], and [`Failure::Equilibrium`] where the place of links that are
-    /// not named is not found.
+    /// [`Failure::Start`] if the option is not a list of one number per link, [`Failure::NoLink`]
+    /// for an unknown link, and [`Failure::Equilibrium`] if the equilibrium angles of links that
+    /// are not named cannot be found.
     pub fn state(&self, subject: &Subject) -> Result<State<f64>, Failure> {
-        let rest = |subject: &Subject| {
-            let zeros = vec![0.0; subject.tree.links()];
-            Ok(subject.tree.equilibrium(&zeros)?)
-        };
+        let rest = |subject: &Subject| Ok(subject.rest()?);
         let zeros = |subject: &Subject| Ok(vec![0.0; subject.tree.links()]);
         let mut values = match self.start.trim() {
             APART => apart(rest(subject)?),
@@ -56,11 +55,39 @@ impl ReleaseArguments {
     }
 }
 
-/// The start of links that are all at angles of their own.
+/// Command-line option that selects the equilibrium of a tree.
+#[derive(Clone, Debug, clap::Args, PartialEq)]
+pub struct RestArguments {
+    /// angles from the vertical from which the tree descends to its equilibrium, degrees: of all
+    /// links in their order, or of the named links, while all others are zero; a name without the
+    /// number of a copy means all copies
+    #[arg(
+        verbatim_doc_comment,
+        long,
+        value_name = "DEG,..|NAME=DEG,..",
+        default_value = "0",
+        allow_hyphen_values = true
+    )]
+    pub start: String,
+}
+
+impl RestArguments {
+    /// Returns the stable equilibrium to which the tree descends from the given angles.
+    ///
+    /// # Errors
+    /// [`Failure::Start`], [`Failure::NoLink`] and [`Failure::Equilibrium`].
+    pub fn rest(&self, subject: &Subject) -> Result<Equilibrium, Failure> {
+        let zeros = |subject: &Subject| Ok(vec![0.0; subject.tree.links()]);
+        let start = of_links(subject, "--start", &self.start, zeros)?;
+        Ok(subject.tree.stable_equilibrium(&start)?)
+    }
+}
+
+/// Word for a start in which no two links have the same angle relative to equilibrium.
 pub(crate) const APART: &str = "apart";
 
-/// Turns links from where they rest, by at most 45°: multiples of the golden ratio, of which
-/// no two have equal fractions, keep them apart.
+/// Returns angles that differ from the equilibrium angles by at most 45°. The differences are
+/// proportional to fractional parts of multiples of the golden ratio, so that no two are equal.
 fn apart(mut rest: Vec<f64>) -> Vec<f64> {
     const GOLDEN: f64 = 0.618_033_988_749_894_9;
     for (link, angle) in rest.iter_mut().enumerate() {
@@ -70,7 +97,8 @@ fn apart(mut rest: Vec<f64>) -> Vec<f64> {
     rest
 }
 
-/// A number for each link, given in degrees.
+/// Parses one number per link, given in degrees; `others` returns the values of links that are not
+/// named.
 fn of_links(
     subject: &Subject,
     option: &'static str,
@@ -88,7 +116,7 @@ fn of_links(
         for part in parts(text) {
             let Some((name, value)) = part.split_once('=') else {
                 return Err(wrong(format!(
-                    "`{part}` is no NAME=DEG beside others that are"
+                    "`{part}` must have the form NAME=DEG, like the others"
                 )));
             };
             let value = number(value)?;

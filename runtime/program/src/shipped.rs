@@ -1,4 +1,4 @@
-//! Trees that are shipped with the command.
+//! Trees that are shipped with the program.
 
 /// A description that is shipped.
 pub struct Shipped {
@@ -6,11 +6,11 @@ pub struct Shipped {
     pub name: &'static str,
     /// The description.
     pub text: &'static str,
-    /// Values of parameters that are not set.
+    /// Default values of the parameters.
     pub values: &'static [(&'static str, f64)],
 }
 
-/// All of them, in the order in which they are listed.
+/// All shipped trees, in the order in which they are listed.
 pub const SHIPPED: [Shipped; 9] = [
     Shipped {
         name: "paper",
@@ -102,7 +102,7 @@ pub const SHIPPED: [Shipped; 9] = [
     },
 ];
 
-/// Returns the names of the trees that are shipped.
+/// Returns the names of the shipped trees.
 pub fn names() -> String {
     let names = SHIPPED.each_ref().map(|shipped| shipped.name);
     names.join(", ")

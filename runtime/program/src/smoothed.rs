@@ -11,44 +11,46 @@ use branched_pendulum_measure::{
 /// Coordinates and their rates.
 pub type Motion = [Vec<f64>; 2];
 
-/// Measured angles, or symmetric coordinates of them.
+/// Measured angles of links, or symmetric coordinates computed from them.
 #[derive(Clone, Copy, Debug)]
 pub struct AngleRows<'a> {
     /// Times, s.
     pub times: &'a [f64],
-    /// Angles at every time, rad: as many as there are links.
+    /// Angles at every time, in rad, one per link; `None` if missing.
     pub angles: &'a [Vec<Option<f64>>],
 }
 
-/// Draws a motion by normal numbers.
+/// Function that draws a random motion, given a source of normal random numbers.
 pub type Draw = dyn Fn(&mut dyn FnMut() -> f64) -> Vec<Motion>;
 
-/// The likeliest motion, and all others that the data allow.
+/// The most likely motion, and random draws of motions that agree with the data.
 pub struct Smoothed {
     /// The likeliest motion.
     pub mean: Vec<Motion>,
-    /// Another motion that the data allow.
+    /// Draws another motion that agrees with the data.
     pub draw: Box<Draw>,
-    /// Standard deviation of the angles, rad; of the first one, where each has its own.
+    /// Standard deviation of the angles' errors, in rad; of the first coordinate if each has its
+    /// own.
     pub noise: f64,
-    /// Correlation of successive innovations, in standard deviations, the largest; NaN where
-    /// nothing is foretold.
+    /// Largest correlation of successive innovations (prediction errors), in standard deviations;
+    /// NaN if the method makes no predictions.
     pub whiteness: f64,
-    /// Friction that the equations lack, N m s, pivot by pivot; none where none is sought.
+    /// Friction coefficients (N m s) that are missing in the equations, pivot by pivot; empty if
+    /// none are searched for.
     pub frictions: Vec<f64>,
-    /// What the motion does beside its equations; none where it was found without any.
+    /// Residual torques of the motion; `None` if it was estimated without equations of motion.
     pub disturbances: Option<Disturbances>,
 }
 
-/// Changes of a motion from the time before to each that its equations do not make.
+/// Changes of a motion, from one time to the next, that its equations do not explain.
 pub struct Disturbances {
     /// The likeliest ones.
     pub likeliest: Vec<Motion>,
-    /// Others, which noise alone would feign of a motion that has none.
+    /// Draws changes that noise alone would produce for a motion without any.
     pub spurious: Box<Draw>,
 }
 
-/// Smooths each coordinate by itself.
+/// Smooths each coordinate separately.
 ///
 /// # Errors
 /// [`SmoothingError`].
@@ -71,20 +73,21 @@ pub fn one_by_one(
     })
 }
 
-/// Equations of motion by which a record is smoothed.
+/// Equations of motion for smoothing a record.
 pub struct SmoothingEquations<'a, L> {
-    /// Accelerations of the links with their derivatives.
+    /// Equations of motion, with the derivatives of the accelerations.
     pub system: &'a L,
-    /// The mass matrix at the angles, by rows.
+    /// Function that returns the mass matrix at given angles, row by row.
     pub mass_matrix: &'a dyn Fn(&[f64]) -> Vec<Vec<f64>>,
-    /// Combinations of links on which forces act that the equations lack.
+    /// Combinations of links on which forces may act that are missing in the equations.
     pub disturbances: &'a [Vec<f64>],
-    /// Rates in pivots whose friction may be lacking, as combinations of those of links.
+    /// Pivots whose friction may be missing in the equations: the relative angular velocity in
+    /// each, as a linear combination of the links' angular velocities.
     pub frictions: &'a [Vec<Vec<f64>>],
 }
 
 impl<L: Linearised<f64>> SmoothingEquations<'_, L> {
-    /// Smooths a record, beginning from a motion near the true one.
+    /// Smooths a record, starting from a motion near the true one.
     ///
     /// # Errors
     /// [`SmoothingError`].

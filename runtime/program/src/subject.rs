@@ -1,17 +1,16 @@
-//! The tree that a command answers for: read from a file, or one of those that are shipped.
+//! The tree of a command: read from a file, or shipped with the program.
 
 use std::io::Read;
 use std::path::PathBuf;
 
 use branched_pendulum::Positions;
-use branched_pendulum::sectors::{Sector, Sectors};
 use branched_pendulum::system::Model;
 use branched_pendulum_trees::{PendulumTree, TreeDescription, TreeError};
 
 use crate::Failure;
 use crate::constants::KnownConstants;
-use crate::frame::Job;
 use crate::frame::command_line::parts;
+use crate::frame::{Input, Job};
 use crate::shipped::{self, SHIPPED, Shipped};
 
 /// Options that name a tree.
@@ -32,52 +31,57 @@ pub struct TreeArguments {
     #[arg(long, value_name = "NAME=VALUE[,..]", value_parser = assignments)]
     // By its full path, clap takes each for one value.
     pub set: Vec<::std::vec::Vec<(String, f64)>>,
-    /// constants of the tree: a table of names and values (JSON), as `identify` writes it, or the
-    /// run.json of a run; `--set` wins over it. Offsets of links in it count where angles are read
+    /// file with constants of the tree: a table of names and values (JSON), as written by
+    /// `identify`, or the run.json of a run. Values by `--set` take precedence. Offsets of links in
+    /// it apply where angles are read
     #[arg(long, value_name = "FILE")]
     pub parameters: Option<PathBuf>,
 }
 
-/// A tree with where it came from.
+/// A tree, with the description and files that it comes from.
 #[derive(Clone, Debug)]
 pub struct Subject {
-    /// Name for titles: that of a shipped tree, or of the file.
+    /// Name for titles: the name of the shipped tree or of the file.
     pub name: String,
-    /// The description as it was read.
+    /// Text of the description as it was read.
     pub text: String,
     /// The tree.
     pub tree: PendulumTree,
+    /// Files that were read to create the tree.
+    pub inputs: Vec<Input>,
 }
 
-/// A description that was read, with the values that are given for its parameters.
+/// A description that was read, with the given values of its parameters.
 #[derive(Clone, Debug)]
 pub struct Described {
-    /// Name for titles: that of a shipped tree, or of the file.
+    /// Name for titles: the name of the shipped tree or of the file.
     pub name: String,
-    /// The description as it was read.
+    /// Text of the description as it was read.
     pub text: String,
     /// The description.
     pub description: TreeDescription,
     /// Values by `--set`.
     pub set: Vec<(String, f64)>,
-    /// Values where none are set: of `--parameters`, and of a shipped tree.
+    /// Default values: those of `--parameters`, and those of a shipped tree.
     pub defaults: Vec<(String, f64)>,
-    /// Offsets of links by `--parameters`, rad.
+    /// Offsets of the links' angles from `--parameters`, in rad.
     pub offsets: Vec<(String, f64)>,
+    /// Files that were read to create the tree.
+    pub inputs: Vec<Input>,
 }
 
 impl TreeArguments {
     /// Reads the tree.
     ///
     /// # Errors
-    /// [`Failure::NoTree`] where there is no such file; [`Failure::Tree`] with all mistakes of the
-    /// description, and for values that it has not or no pendulum can have;
+    /// [`Failure::NoTree`] if there is no such file or shipped tree; [`Failure::Tree`] with all
+    /// mistakes of the description, for unknown parameters and for values that are not physical;
     /// [`Failure::Parameters`].
     pub fn read(&self) -> Result<Subject, Failure> {
         self.described()?.read()
     }
 
-    /// Reads the description, without a value for each of its parameters.
+    /// Reads the description; parameters may remain without values.
     ///
     /// # Errors
     /// [`Failure::NoTree`], [`Failure::Parameters`], and [`Failure::Tree`] with all mistakes of the
@@ -94,8 +98,8 @@ impl TreeArguments {
         SHIPPED.iter().find(|shipped| shipped.name == self.tree)
     }
 
-    /// Returns the description in `text`, in place of that of the tree, whose values are its own
-    /// where none are set.
+    /// Returns the description `text` instead of the tree's own; parameters that are not set have
+    /// the tree's default values.
     ///
     /// # Errors
     /// [`Failure::Parameters`], and [`Failure::Tree`] with all mistakes of the description.
@@ -107,10 +111,13 @@ impl TreeArguments {
             description.map_err(|error| Failure::tree(&self.tree, TreeError::from(error)))?;
         let known = self.parameters.as_deref();
         let known = known.map(|path| KnownConstants::read(path, &description));
+        let known = known.transpose()?.unwrap_or_default();
+        let mut inputs = vec![Input::of_text(&self.tree, &text)];
+        inputs.extend(self.parameters.as_deref().map(|path| known.input(path)));
         let KnownConstants {
             values: mut defaults,
             offsets,
-        } = known.transpose()?.unwrap_or_default();
+        } = known;
         for &(name, value) in shipped {
             if defaults.iter().all(|(own, _)| own != name) {
                 defaults.push((name.to_owned(), value));
@@ -122,7 +129,7 @@ impl TreeArguments {
         };
         if let Some((_, (name, _))) = set.iter().enumerate().find(is_again) {
             return Err(Failure::Lacking {
-                what: format!("`--set` gives `{name}` twice: name it once"),
+                what: format!("`--set` gives `{name}` twice: give it once"),
             });
         }
         let name = match std::path::Path::new(&self.tree).file_name() {
@@ -136,6 +143,7 @@ impl TreeArguments {
             set,
             defaults,
             offsets,
+            inputs,
         })
     }
 
@@ -154,7 +162,15 @@ impl TreeArguments {
 }
 
 impl Described {
-    /// Returns the tree with the values that are known.
+    /// Records the files that were read for the description as inputs of the run.
+    ///
+    /// # Errors
+    /// [`Failure::Changed`] if the run repeats another one that read a different content.
+    pub fn note(&self, job: &Job) -> Result<(), Failure> {
+        note(&self.inputs, job)
+    }
+
+    /// Returns the tree with the known values of its parameters.
     ///
     /// # Errors
     /// As [`subject`](Self::subject).
@@ -162,7 +178,8 @@ impl Described {
         self.subject(&self.known())
     }
 
-    /// Returns the values that are known: those that are set, and others by default.
+    /// Returns the known values of the parameters: those that are set, and default values for
+    /// others.
     pub fn known(&self) -> Vec<(&str, f64)> {
         let is_set = |name: &str| self.set.iter().any(|(own, _)| own == name);
         let others = self.defaults.iter().filter(|(name, _)| !is_set(name));
@@ -170,47 +187,62 @@ impl Described {
         known.map(|(name, value)| (name.as_str(), *value)).collect()
     }
 
-    /// Returns the tree with these values of its parameters.
+    /// Returns the tree for these values of its parameters.
     ///
     /// # Errors
-    /// [`Failure::Tree`] for names that it has not, parameters without a value, and values that
-    /// no pendulum can have.
+    /// [`Failure::Tree`] for unknown parameters, parameters without a value, and values that are
+    /// not physical.
     pub fn subject(&self, values: &[(&str, f64)]) -> Result<Subject, Failure> {
         let tree = self.description.tree(values);
         Ok(self.with_tree(tree.map_err(|source| self.refused(source))?))
     }
 
-    /// Returns a tree of the description with its name.
+    /// Returns a copy of this subject with another tree, and the same name, text and input files.
     pub fn with_tree(&self, tree: PendulumTree) -> Subject {
         Subject {
             name: self.name.clone(),
             text: self.text.clone(),
             tree,
+            inputs: self.inputs.clone(),
         }
     }
 
-    /// Returns a mistake in what is asked of the tree, with its name.
+    /// Returns the error that the tree does not support a request, with the tree's name.
     pub fn refused(&self, source: TreeError) -> Failure {
         Failure::tree(&self.name, source)
     }
 }
 
+/// Records files as inputs of a run.
+fn note(inputs: &[Input], job: &Job) -> Result<(), Failure> {
+    inputs.iter().try_for_each(|input| job.input(input.clone()))
+}
+
 impl Subject {
-    /// Puts the description and the values of its parameters into the record of a run.
-    pub fn record(&self, job: &Job) {
-        self.record_with(job, Vec::new());
+    /// Writes the description, the values of its parameters and the files that were read to the
+    /// record of a run.
+    ///
+    /// # Errors
+    /// [`Failure::Changed`] if the run repeats another one that read a different content.
+    pub fn record(&self, job: &Job) -> Result<(), Failure> {
+        self.record_with(job, Vec::new())
     }
 
-    /// Puts the offsets of links into the record too, rad.
-    pub fn record_with(&self, job: &Job, offsets: Vec<(String, f64)>) {
+    /// Also writes the offsets of the links' angles (rad) to the record of a run.
+    ///
+    /// # Errors
+    /// As [`record`](Self::record).
+    pub fn record_with(&self, job: &Job, offsets: Vec<(String, f64)>) -> Result<(), Failure> {
+        note(&self.inputs, job)?;
         let description = self.tree.description();
         let value = |name: &str| Some((name.to_owned(), self.tree.value(name)?));
         let values = description.parameters().filter_map(value).collect();
         job.report("description", self.text.as_str());
         job.report("parameters", KnownConstants { values, offsets }.table());
+        Ok(())
     }
 
-    /// Returns the tree with another value of a parameter.
+    /// Returns the same tree with another value of one parameter.
     ///
     /// # Errors
     /// [`Failure::Tree`].
@@ -223,7 +255,7 @@ impl Subject {
     /// names end with numbers.
     ///
     /// # Errors
-    /// [`Failure::NoLink`], with the names that there are.
+    /// [`Failure::NoLink`], with the names of all links.
     pub fn links_named(&self, name: &str) -> Result<Vec<usize>, Failure> {
         let names = self.tree.names();
         if let Some(link) = names.iter().position(|own| own == name) {
@@ -247,40 +279,13 @@ impl Subject {
         }
     }
 
-    /// Returns the links that names mean which commas part, in their order.
+    /// Returns the links for a list of names, separated by commas, in order.
     ///
     /// # Errors
     /// [`Failure::NoLink`].
     pub fn all_links_named(&self, names: &str) -> Result<Vec<usize>, Failure> {
         let links = names.split(',').map(|name| self.links_named(name.trim()));
         Ok(links.collect::<Result<Vec<_>, _>>()?.concat())
-    }
-
-    /// Returns the copies nearest to the root; none for a tree without copies.
-    pub fn first_copies(&self) -> Option<Vec<usize>> {
-        let all = self.tree.sectors();
-        let first = all.iter().find(|sector| sector.name() != "in_phase")?;
-        let weights = first.coordinates().first()?.weights();
-        // The differences of a set of copies follow each other; that of the last one has all.
-        let is_wider = |sector: &&Sector| {
-            let own = sector
-                .coordinates()
-                .first()
-                .map_or(&[][..], |own| own.weights());
-            weights
-                .iter()
-                .all(|(link, _)| own.iter().any(|(other, _)| other == link))
-        };
-        let widest = all
-            .iter()
-            .filter(is_wider)
-            .filter_map(|sector| sector.coordinates().first());
-        let widest = widest.filter(|own| own.weights().iter().any(|(_, weight)| *weight < 0.0));
-        let links = widest
-            .max_by_key(|own| own.weights().len())?
-            .weights()
-            .iter();
-        Some(links.map(|(link, _)| *link).collect())
     }
 
     /// Returns the link that each hangs from; of the root none.
@@ -292,12 +297,12 @@ impl Subject {
     }
 }
 
-/// Reads `NAME=VALUE` and lists of these.
+/// Parses `NAME=VALUE`, or a list of such assignments.
 pub(crate) fn assignments(text: &str) -> Result<Vec<(String, f64)>, String> {
     let assignment = |part: &str| {
         let pair = part
             .split_once('=')
-            .ok_or_else(|| format!("`{part}` is no `NAME=VALUE`"))?;
+            .ok_or_else(|| format!("`{part}` is not `NAME=VALUE`"))?;
         let value = pair
             .1
             .trim()
@@ -334,14 +339,19 @@ mod tests {
         ]";
         let tree = PendulumTree::parse(text).unwrap();
         let (name, text) = (String::new(), String::new());
-        let subject = Subject { name, text, tree };
-        assert_eq!(subject.first_copies().unwrap(), [1, 2, 3]);
+        let subject = Subject {
+            name,
+            text,
+            tree,
+            inputs: Vec::new(),
+        };
+        assert_eq!(subject.tree.first_copies().unwrap(), [1, 2, 3]);
         let chain = TreeArguments {
             tree: "chain".to_owned(),
             set: Vec::new(),
             parameters: None,
         };
-        assert_eq!(chain.read().unwrap().first_copies(), None);
+        assert_eq!(chain.read().unwrap().tree.first_copies(), None);
     }
 
     #[test]
@@ -354,7 +364,7 @@ mod tests {
         let subject = arguments.read().unwrap();
         assert_eq!(subject.links_named("child").unwrap(), [1, 2]);
         assert_eq!(subject.links_named("child_2").unwrap(), [2]);
-        assert_eq!(subject.first_copies().unwrap(), [1, 2]);
+        assert_eq!(subject.tree.first_copies().unwrap(), [1, 2]);
         let error = subject.links_named("twig").unwrap_err().to_string();
         assert_eq!(
             error,

@@ -1,31 +1,29 @@
-//! The cheapest model, method and setting that is right: `Tree.advise`.
+//! Choice of the cheapest model, method and setting that is accurate enough: `Tree.advise`.
 
-use std::collections::BTreeMap;
-
-use branched_pendulum::integrate::Method;
 use branched_pendulum::system::{Model, State};
 use branched_pendulum_advice::{
     Advice, AdviceError, Criterion, Measured, SettingRange, TimeLimit, TreeOutput, TreeScene,
     UnknownOutput,
 };
-use pyo3::exceptions::{PyKeyError, PyTypeError, PyValueError};
+use pyo3::exceptions::{PyKeyError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 
 use crate::IntegrationError;
-use crate::arrays::{Number, Numbers, Times, axes};
+use crate::arguments::{Entries, named};
+use crate::arrays::{Numbers, Times, axes};
 use crate::interrupts::detached;
 use crate::memory::{bytes, need};
 use crate::results::result;
 use crate::tree::{Tree, wrong};
 
-/// Samples of a span of time.
+/// Number of samples if only a span of time is given.
 const SAMPLES: u32 = 100;
 
-/// Numbers that are kept of each component of a state at each time, about.
+/// Approximate number of values stored per component of a state and time, for the memory check.
 const COPIES: usize = 12;
 
-/// Times of samples after the first time, which is that of the starts.
+/// Returns the first time, which is the time of the starts, and the times of the samples after it.
 fn samples(t: &Times<'_>) -> PyResult<(f64, Vec<f64>)> {
     let times = t.numbers.list("t")?;
     if let Some(time) = times.iter().find(|time| !time.is_finite()) {
@@ -51,19 +49,15 @@ fn samples(t: &Times<'_>) -> PyResult<(f64, Vec<f64>)> {
     }
 }
 
-/// An output and the largest error that it may have.
-fn wanted((name, most): (String, Bound<'_, PyAny>)) -> PyResult<(TreeOutput, f64)> {
+/// Converts the name of an output and its largest allowed error.
+fn wanted((name, most): (String, f64)) -> PyResult<(TreeOutput, f64)> {
     let output = name.parse();
     let output = output.map_err(|error: UnknownOutput| PyKeyError::new_err(error.to_string()))?;
-    let most = most.extract::<Number>().map_err(|error| {
-        let reason = error.value(most.py());
-        PyTypeError::new_err(format!("right[{name:?}]: {reason}"))
-    })?;
-    if !(most.0.is_finite() && most.0 > 0.0) {
-        let text = format!("right[{name:?}] must be above 0, got {}", most.0);
+    if !(most.is_finite() && most > 0.0) {
+        let text = format!("right[{name:?}] must be above 0, got {most}");
         return Err(PyValueError::new_err(text));
     }
-    Ok((output, most.0))
+    Ok((output, most))
 }
 
 fn limit(step: Option<f64>, sample: Option<f64>) -> PyResult<Option<TimeLimit>> {
@@ -95,21 +89,13 @@ pub(crate) fn refused(py: Python<'_>, error: AdviceError) -> PyErr {
     }
 }
 
-/// The method of a run of the equations of motion by numbers of Python's precision.
-fn method(advice: &Advice, run: &Measured) -> Option<Method> {
-    let name = &advice.names[run.candidate];
-    let is_known = name.model == "full" && name.scalar == "f64";
-    let mut methods = Method::ALL.iter().copied();
-    methods.find(|method| is_known && method.title() == name.method)
-}
-
-/// Arguments of `integrate`, or of `ensemble` in lanes, by name.
+/// Returns the arguments of `integrate`, or of `ensemble` for runs in lanes, by name.
 fn arguments<'py>(
     py: Python<'py>,
     advice: &Advice,
     run: &Measured,
 ) -> PyResult<Option<Bound<'py, PyDict>>> {
-    let Some(method) = method(advice, run) else {
+    let Some(method) = advice.method(run) else {
         return Ok(None);
     };
     let named = PyDict::new(py);
@@ -122,9 +108,9 @@ fn arguments<'py>(
     Ok(Some(named))
 }
 
-/// The call that makes a run, as one writes it in Python.
+/// Returns the Python call that performs a run.
 fn call(advice: &Advice, run: &Measured) -> Option<String> {
-    let method = method(advice, run)?;
+    let method = advice.method(run)?;
     let setting = match method.is_adaptive() {
         true => format!("rtol={:e}", run.setting),
         false => format!("step={}", run.setting),
@@ -149,7 +135,7 @@ fn measured<'py>(
     let criterion = worst.map(|worst| match worst.criterion {
         Criterion::Values => "values",
         Criterion::Conserved => "conserved",
-        _ => "statistics",
+        Criterion::Statistics => "statistics",
     });
     // Beyond the outputs stands what the motion keeps.
     let judged = worst.map(|_| output.map_or("energy", |output| output.name.as_str()));
@@ -244,10 +230,7 @@ fn advice_for_python<'py>(
         ),
         ("growth", advice.growth.into_pyobject(py)?.into_any()),
     ];
-    let best = advice
-        .ranked()
-        .find(|run| run.is_right() && method(&advice, run).is_some());
-    let best = advice.chosen().and(best).and_then(|run| call(&advice, run));
+    let best = advice.best_full().and_then(|(run, _)| call(&advice, run));
     advice.to_write = best.into_iter().collect();
     let words = advice.to_string().trim_end().into_pyobject(py)?.into_any();
     result(py, "Advice", &[&fields[..], &[("words", words)]].concat())
@@ -255,7 +238,8 @@ fn advice_for_python<'py>(
 
 #[pymethods]
 impl Tree {
-    /// Measures which model, method and setting is the cheapest that is right for motions.
+    /// Measures which model, integration method and setting is the cheapest that is accurate enough
+    /// for given motions.
     ///
     /// Candidates are the equations of motion by every method, of several starts in vector
     /// registers too, in double and single precision, and the linear model about the place of rest
@@ -300,11 +284,11 @@ impl Tree {
     fn advise<'py>(
         &self,
         py: Python<'py>,
-        starts: Numbers<'py>,
-        t: Times<'py>,
-        right: Option<BTreeMap<String, Bound<'py, PyAny>>>,
-        step_limit: Option<f64>,
-        sample_limit: Option<f64>,
+        #[pyo3(from_py_with = named::starts)] starts: Numbers<'py>,
+        #[pyo3(from_py_with = named::t)] t: Times<'py>,
+        #[pyo3(from_py_with = named::right)] right: Option<Entries<f64>>,
+        #[pyo3(from_py_with = named::step_limit)] step_limit: Option<f64>,
+        #[pyo3(from_py_with = named::sample_limit)] sample_limit: Option<f64>,
     ) -> PyResult<Bound<'py, PyAny>> {
         let tree = self.tree();
         let dimension = 2 * tree.links();
@@ -324,7 +308,7 @@ impl Tree {
         )?;
         let right = match right {
             None => vec![(TreeOutput::Angles, 1e-6)],
-            Some(right) => right.into_iter().map(wanted).collect::<PyResult<_>>()?,
+            Some(Entries(right)) => right.into_iter().map(wanted).collect::<PyResult<_>>()?,
         };
         let scene = TreeScene {
             starts,

@@ -1,105 +1,39 @@
-//! Arrays of NumPy and slices of numbers.
+//! NumPy arrays, and their conversion to slices of numbers.
 
 use numpy::{
-    AllowTypeChange, IntoPyArray, PyArray1, PyArray2, PyArrayDyn, PyArrayLikeDyn, PyArrayMethods,
-    PyReadonlyArrayDyn, PyUntypedArray, PyUntypedArrayMethods,
+    IntoPyArray, PyArray1, PyArray2, PyArrayDyn, PyArrayMethods, PyReadonlyArrayDyn,
+    PyUntypedArrayMethods,
 };
-use pyo3::exceptions::{PyTypeError, PyValueError};
+use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
-use pyo3::types::{PyDict, PyList, PyTuple};
+use pyo3::types::{PyDict, PyTuple};
 
 use branched_pendulum::interruption;
 
 use crate::interrupts::detached;
-use crate::memory::{bytes, need, room, shown};
+use crate::memory::{allocate, shown};
 
 pub(crate) type Row<'py> = Bound<'py, PyArray1<f64>>;
 pub(crate) type Matrix<'py> = Bound<'py, PyArray2<f64>>;
 pub(crate) type Table<'py> = Bound<'py, PyArrayDyn<f64>>;
 
-/// Real numbers in any shape: an array, a list, what NumPy makes an array of. What would lose
-/// a part is refused; PyO3 puts the argument's name before the reason.
+/// Real numbers of any shape: an array, a list, or anything else that NumPy converts to an array
+/// without loss.
 pub(crate) struct Numbers<'py>(PyReadonlyArrayDyn<'py, f64>);
 
-impl<'a, 'py> FromPyObject<'a, 'py> for Numbers<'py> {
-    type Error = PyErr;
-
-    fn extract(object: Borrowed<'a, 'py, PyAny>) -> PyResult<Self> {
-        if object.is_exact_instance_of::<PyUntypedArray>()
-            && let Ok(array) = object.cast::<PyArrayDyn<f64>>()
-        {
-            return Self(array.readonly()).checked();
-        }
-        let converted = Self::converted(&object).map_err(|error| {
-            let reason = error.value(object.py());
-            PyTypeError::new_err(reason.to_string())
-        });
-        converted?.checked()
+impl<'py> From<PyReadonlyArrayDyn<'py, f64>> for Numbers<'py> {
+    fn from(array: PyReadonlyArrayDyn<'py, f64>) -> Self {
+        Self(array)
     }
 }
 
-/// Times: of which a pair in parentheses is a span, as SciPy's is.
+/// Times; a pair in parentheses is a span of time, as SciPy's `t_span`.
 pub(crate) struct Times<'py> {
     pub(crate) numbers: Numbers<'py>,
     pub(crate) is_span: bool,
 }
 
-impl<'a, 'py> FromPyObject<'a, 'py> for Times<'py> {
-    type Error = PyErr;
-
-    fn extract(object: Borrowed<'a, 'py, PyAny>) -> PyResult<Self> {
-        let numbers: Numbers<'py> = object.extract()?;
-        let is_span = object.is_instance_of::<PyTuple>() && numbers.shape() == [2];
-        Ok(Self { numbers, is_span })
-    }
-}
-
 impl<'py> Numbers<'py> {
-    fn converted(object: &Bound<'py, PyAny>) -> PyResult<Self> {
-        // NumPy makes a NaN of it.
-        if object.is_none() {
-            return Err(PyTypeError::new_err("None is no real number"));
-        }
-        let numpy = object.py().import("numpy")?;
-        let is_masked = |object: &Bound<'py, PyAny>| -> PyResult<bool> {
-            let answer = numpy.getattr("ma")?.call_method1("is_masked", (object,))?;
-            answer.is_truthy()
-        };
-        let mut masked = is_masked(object)?;
-        if object.is_instance_of::<PyList>() || object.is_instance_of::<PyTuple>() {
-            for part in object.try_iter()? {
-                masked |= is_masked(&part?)?;
-            }
-        }
-        if masked {
-            let text = "some numbers are masked, and the mask would be lost: take those that are \
-                        not, or fill them, `filled(numpy.nan)` where NaN means missing";
-            return Err(PyTypeError::new_err(text));
-        }
-        let array = numpy.call_method1("asarray", (object,))?;
-        let kind: String = array.getattr("dtype")?.getattr("kind")?.extract()?;
-        match &*kind {
-            "b" | "i" | "u" | "f" | "O" => {}
-            "c" => {
-                let text = "the numbers are complex, and their imaginary parts would be lost: \
-                            give `.real`";
-                return Err(PyTypeError::new_err(text));
-            }
-            _ => {
-                let text = format!("{} are no real numbers", array.getattr("dtype")?);
-                return Err(PyTypeError::new_err(text));
-            }
-        }
-        let array: PyArrayLikeDyn<'py, f64, AllowTypeChange> = array.extract()?;
-        Ok(Self((*array).clone()))
-    }
-
-    /// Passes numbers of which there is room for two copies.
-    fn checked(self) -> PyResult<Self> {
-        need("copies of it", bytes(self.shape(), 2))?;
-        Ok(self)
-    }
-
     pub(crate) fn shape(&self) -> &[usize] {
         self.0.shape()
     }
@@ -115,12 +49,12 @@ impl<'py> Numbers<'py> {
         Ok(Self(zero.readonly()))
     }
 
-    /// All numbers, the last axis running first.
+    /// Returns all numbers, in an order in which the last axis varies fastest.
     pub(crate) fn to_vec(&self) -> Vec<f64> {
         self.0.as_array().iter().copied().collect()
     }
 
-    /// The numbers of one axis, however many.
+    /// Returns the numbers of a one-dimensional array of any length.
     pub(crate) fn list(&self, name: &str) -> PyResult<Vec<f64>> {
         match self.shape() {
             [_] => Ok(self.to_vec()),
@@ -131,7 +65,8 @@ impl<'py> Numbers<'py> {
         }
     }
 
-    /// The numbers of one axis, as many as are wanted.
+    /// Returns the numbers of a one-dimensional array, after checking that it has `wanted`
+    /// elements.
     pub(crate) fn row(&self, name: &str, wanted: usize) -> PyResult<Vec<f64>> {
         match self.shape() {
             [found] if *found == wanted => Ok(self.to_vec()),
@@ -142,7 +77,8 @@ impl<'py> Numbers<'py> {
         }
     }
 
-    /// The numbers of two axes, the second one as long as is wanted.
+    /// Returns the rows of a two-dimensional array, after checking that they have `wanted`
+    /// elements.
     pub(crate) fn rows(&self, name: &str, wanted: usize) -> PyResult<Vec<Vec<f64>>> {
         match self.shape() {
             [_, found] if *found == wanted => {
@@ -160,29 +96,7 @@ impl<'py> Numbers<'py> {
     }
 }
 
-/// A real number: of Python or NumPy, or an array that holds one.
-pub(crate) struct Number(pub(crate) f64);
-
-impl<'a, 'py> FromPyObject<'a, 'py> for Number {
-    type Error = PyErr;
-
-    fn extract(object: Borrowed<'a, 'py, PyAny>) -> PyResult<Self> {
-        if object.is_instance_of::<pyo3::types::PyFloat>() {
-            return Ok(Self(object.extract()?));
-        }
-        let numbers: Numbers<'py> = object.extract()?;
-        match numbers.to_vec()[..] {
-            [number] => Ok(Self(number)),
-            _ => {
-                let shape = shown(numbers.shape());
-                let text = format!("an array of shape {shape} is no number");
-                Err(PyTypeError::new_err(text))
-            }
-        }
-    }
-}
-
-/// A whole number from `least` to the largest of its type.
+/// Converts a whole number, after checking that it is at least `least` and fits into its type.
 pub(crate) fn whole<T>(name: &str, value: i128, least: T) -> PyResult<T>
 where
     T: TryFrom<i128> + PartialOrd + std::fmt::Display,
@@ -208,7 +122,8 @@ pub(crate) fn matrix<'py>(
     values.into_pyarray(py).reshape([rows, columns])
 }
 
-/// The axes of an array before the last one, which is as long as is wanted.
+/// Returns the axes of an array before its last one, after checking that the last one has the
+/// length `wanted`.
 pub(crate) fn axes(name: &str, numbers: &Numbers<'_>, wanted: usize) -> PyResult<Vec<usize>> {
     match numbers.shape() {
         [axes @ .., last] if *last == wanted => Ok(axes.to_vec()),
@@ -220,18 +135,19 @@ pub(crate) fn axes(name: &str, numbers: &Numbers<'_>, wanted: usize) -> PyResult
     }
 }
 
-/// Arguments whose last axes are as long as is wanted, and whose other axes go together by
-/// NumPy's rules.
+/// Arguments whose last axes have given lengths, and whose other axes are combined by NumPy's
+/// broadcasting rules.
 pub(crate) struct Together {
-    /// The axes that they have in common.
+    /// The common axes of all arguments.
     shape: Vec<usize>,
     arguments: Vec<(Vec<f64>, usize)>,
 }
 
-/// Length of the last axis of an argument that has one number for each state, and no axis for it.
+/// Code for arguments with one number per state, which have no last axis for the numbers of a
+/// state.
 pub(crate) const ONE_EACH: usize = 0;
 
-/// An argument with its name and the length of its last axis.
+/// An argument with its name and the required length of its last axis.
 pub(crate) type Argument<'a, 'py> = (&'a str, &'a Numbers<'py>, usize);
 
 impl Together {
@@ -267,8 +183,8 @@ impl Together {
         Ok(Self { shape, arguments })
     }
 
-    /// Calls a function for each state: it writes `result.iter().product()` numbers. What is
-    /// long lets other threads of Python run, and ends by a signal.
+    /// Calls a function for each state; it writes `result.iter().product()` numbers. Long
+    /// computations let other Python threads run, and can be interrupted by signals.
     pub(crate) fn each<'py>(
         &self,
         py: Python<'py>,
@@ -276,7 +192,7 @@ impl Together {
         mut function: impl FnMut(&[&[f64]], &mut [f64]) + Send,
     ) -> PyResult<Bound<'py, PyAny>> {
         let shape = [&self.shape[..], result].concat();
-        let mut values = room(&shape)?;
+        let mut values = allocate(&shape)?;
         values.resize(shape.iter().product(), 0.0);
         let length: usize = result.iter().product();
         let count: usize = self.shape.iter().product();
@@ -302,10 +218,10 @@ impl Together {
     }
 }
 
-/// Numbers below which a function is done before anybody waits for it.
+/// Number of values below which a computation is so short that it need not be interruptible.
 const SHORT: usize = 10_000;
 
-/// Axes that two shapes have together.
+/// Returns the common shape of two shapes by NumPy's broadcasting rules.
 fn common(one: &[usize], other: &[usize]) -> Option<Vec<usize>> {
     let length = one.len().max(other.len());
     let at = |shape: &[usize], axis: usize| match (axis + shape.len()).checked_sub(length) {
@@ -319,7 +235,7 @@ fn common(one: &[usize], other: &[usize]) -> Option<Vec<usize>> {
     (0..length).map(axis).collect()
 }
 
-/// A number in place of an array without axes.
+/// Converts an array without axes to a number.
 fn plain(array: Bound<'_, PyAny>) -> PyResult<Bound<'_, PyAny>> {
     match array.getattr("ndim")?.extract::<usize>()? {
         0 => array.get_item(PyTuple::empty(array.py())),
@@ -327,8 +243,8 @@ fn plain(array: Bound<'_, PyAny>) -> PyResult<Bound<'_, PyAny>> {
     }
 }
 
-/// Results for each state of an array whose last axis is that of the components; in the place
-/// of that axis stands the one of results, if there are several.
+/// Computes results for each state of an array whose last axis has the components. In the result
+/// this axis is replaced by the axis of the results, if there are several.
 pub(crate) fn by_state<'py, const RESULTS: usize>(
     py: Python<'py>,
     states: &Numbers<'py>,
@@ -343,13 +259,13 @@ pub(crate) fn by_state<'py, const RESULTS: usize>(
     })
 }
 
-/// Names of the components of a state: `theta_parent` to `omega_child_2`.
+/// Returns the names of the components of a state: `theta_parent` to `omega_child_2`.
 pub(crate) fn state_names(links: &[String]) -> Vec<String> {
     let of = |letter: &'static str| links.iter().map(move |name| format!("{letter}_{name}"));
     of("theta").chain(of("omega")).collect()
 }
 
-/// A `pandas.DataFrame` of rows against times.
+/// Creates a `pandas.DataFrame` from rows at the given times.
 pub(crate) fn frame<'py>(
     py: Python<'py>,
     times: &Py<PyArray1<f64>>,

@@ -11,30 +11,32 @@ use branched_pendulum_trees::{PendulumTree, TreeDescription, TreeError};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
+use crate::arguments::named;
 use crate::arrays::{Numbers, by_state};
 use crate::estimates::Coordinates;
 use crate::measured_model::MeasuredModel;
 use crate::pendulum::Pendulum;
 use paper::Paper;
 
-/// The paper's scene as the tool wrote it, a link to it: the repository checks that it is up to date.
+/// The paper's scene as committed emitted code; it is a link to one file, which the repository
+/// checks to be up to date.
 #[allow(dead_code, missing_docs, clippy::wrong_self_convention)]
 #[rustfmt::skip]
 #[path = "paper.rs"]
 mod paper;
 
-/// Links, and half the numbers of a state.
+/// Number of links; a state has twice as many numbers.
 const LINKS: usize = Paper::LINKS;
 
-/// Forms of W that the model has.
+/// Forms of the energy transfer W that the model can compute.
 const FORMS: &[branched_pendulum::TransferForm] = <Paper as TransferForms<f64>>::TRANSFER_FORMS;
 
 /// The paper's branched double pendulum as a compiled model: a parent with two equal children,
 /// `parent`, `child_1`, `child_2`, of the published masses (kg), lengths (m) and moments of
 /// inertia (kg m²).
 ///
-/// Beside the motions it has the energy of the antiphase mode and the transfer W into it in
-/// every form (`FORMS`).
+/// In addition to motions, it computes the energy of the antiphase mode and the energy transfer W
+/// into that mode in every form (`FORMS`).
 #[pyclass(frozen, extends = Pendulum, module = "branched_pendulum.models")]
 pub(crate) struct BranchedDouble {
     model: Paper,
@@ -100,7 +102,7 @@ fn halves(state: &[f64]) -> Option<[&[f64; LINKS]; 2]> {
 }
 
 impl BranchedDouble {
-    /// Symmetric coordinates (rad) and their momenta (kg m²/s) of a state.
+    /// Returns the symmetric coordinates (rad) and their momenta (kg m²/s) of a state.
     fn canonical(&self, state: &[f64]) -> [[f64; LINKS]; 2] {
         let Some([theta, omega]) = halves(state) else {
             return [[f64::NAN; LINKS]; 2];
@@ -123,7 +125,7 @@ impl BranchedDouble {
     }
 }
 
-/// The index of a form by its name.
+/// Returns the index of a form of W, given its name.
 fn form(name: &str) -> PyResult<usize> {
     let names: Vec<String> = FORMS.iter().map(ToString::to_string).collect();
     let found = names.iter().position(|own| own == name);
@@ -144,14 +146,14 @@ impl BranchedDouble {
         PyClassInitializer::from(Pendulum { motions }).add_subclass(Self { model })
     }
 
-    /// Names of the forms of W.
+    /// Names of the forms of the energy transfer W.
     #[classattr]
     #[pyo3(name = "FORMS")]
     fn forms() -> Vec<String> {
         FORMS.iter().map(ToString::to_string).collect()
     }
 
-    /// Returns symmetric coordinates and their momenta.
+    /// Returns the symmetric coordinates of states and their momenta.
     ///
     /// Parameters
     /// ----------
@@ -172,7 +174,7 @@ impl BranchedDouble {
     fn canonical_variables<'py>(
         &self,
         py: Python<'py>,
-        y: Numbers<'py>,
+        #[pyo3(from_py_with = named::y)] y: Numbers<'py>,
     ) -> PyResult<Bound<'py, PyAny>> {
         by_state(py, &y, 2 * LINKS, |state| {
             let [[a, b, c], [p, q, r]] = self.canonical(state);
@@ -180,7 +182,7 @@ impl BranchedDouble {
         })
     }
 
-    /// Returns the energy H_d of the antiphase mode.
+    /// Returns the energy H_d of the antiphase mode, in which the children move against each other.
     ///
     /// Parameters
     /// ----------
@@ -200,7 +202,7 @@ impl BranchedDouble {
     fn antiphase_energy<'py>(
         &self,
         py: Python<'py>,
-        y: Numbers<'py>,
+        #[pyo3(from_py_with = named::y)] y: Numbers<'py>,
     ) -> PyResult<Bound<'py, PyAny>> {
         by_state(py, &y, 2 * LINKS, |state| {
             let [coordinates, momenta] = self.canonical(state);
@@ -232,8 +234,8 @@ impl BranchedDouble {
     fn transfer<'py>(
         &self,
         py: Python<'py>,
-        y: Numbers<'py>,
-        form: &str,
+        #[pyo3(from_py_with = named::y)] y: Numbers<'py>,
+        #[pyo3(from_py_with = named::form)] form: &str,
     ) -> PyResult<Bound<'py, PyAny>> {
         let form = self::form(form)?;
         by_state(py, &y, 2 * LINKS, |state| {
@@ -241,7 +243,7 @@ impl BranchedDouble {
         })
     }
 
-    /// Returns the parts W_K and W_P of that transfer.
+    /// Returns the parts W_K and W_P of the energy transfer W into the antiphase mode.
     ///
     /// Parameters
     /// ----------
@@ -265,8 +267,8 @@ impl BranchedDouble {
     fn transfer_parts<'py>(
         &self,
         py: Python<'py>,
-        y: Numbers<'py>,
-        form: &str,
+        #[pyo3(from_py_with = named::y)] y: Numbers<'py>,
+        #[pyo3(from_py_with = named::form)] form: &str,
     ) -> PyResult<Bound<'py, PyAny>> {
         let form = self::form(form)?;
         by_state(py, &y, 2 * LINKS, |state| {

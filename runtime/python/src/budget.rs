@@ -2,7 +2,6 @@
 
 use branched_pendulum::Model;
 use branched_pendulum::ScaleBudget;
-use branched_pendulum::sectors::degrees_of_freedom;
 use branched_pendulum::system::Workspace;
 use branched_pendulum::tree::MOST_GENERATIONS;
 use branched_pendulum_trees::PendulumTree;
@@ -14,10 +13,10 @@ use pyo3::types::{PyEllipsis, PySlice};
 use crate::arrays::{Numbers, ONE_EACH, Together};
 use crate::results::result;
 
-/// Tables of a budget with a number for each scale.
+/// Names of the tables of a budget that have one number per scale.
 const TABLES: [&str; 5] = ["energies", "friction", "drag", "drive", "outside"];
 
-/// Writes a budget: the tables, then transfers from each scale.
+/// Writes a budget to `out`: first the tables, then the transfers from each scale.
 fn write(budget: &ScaleBudget<f64>, out: &mut [f64]) {
     let scales = budget.scales();
     let of: [fn(&ScaleBudget<f64>, usize) -> f64; TABLES.len()] = [
@@ -37,7 +36,8 @@ fn write(budget: &ScaleBudget<f64>, out: &mut [f64]) {
     }
 }
 
-/// Budgets of states at times and under torques, whose axes go together by NumPy's rules.
+/// Computes energy budgets for states, times and torques, whose axes are combined by NumPy's
+/// broadcasting rules.
 pub(crate) fn scale_budget<'py>(
     py: Python<'py>,
     tree: &PendulumTree,
@@ -46,15 +46,15 @@ pub(crate) fn scale_budget<'py>(
     torques: Option<&Numbers<'py>>,
 ) -> PyResult<Bound<'py, PyAny>> {
     let links = tree.links();
-    let Some(copies) = tree.copies() else {
+    let Some(freedoms) = tree.degrees_of_freedom_by_scale() else {
         let mut springs = tree.description().springs_across_scales();
         return Err(PyValueError::new_err(match springs.next() {
             Some(what) => format!("the spring `{what}` belongs to no scale"),
             None => "links of one generation differ: such a tree has no scales".to_owned(),
         }));
     };
-    let scales = copies.len();
-    if scales > MOST_GENERATIONS {
+    let scales = freedoms.len();
+    if tree.lineage().is_none() && scales > MOST_GENERATIONS {
         let text = format!(
             "the tree has {scales} generations, scales are known of at most {MOST_GENERATIONS}"
         );
@@ -91,7 +91,7 @@ pub(crate) fn scale_budget<'py>(
     let states = axes.get(..axes.len().saturating_sub(1)).unwrap_or_default();
     let shape = [states, &[scales, scales]].concat();
     fields.push(("transfers", transfers.call_method1("reshape", (shape,))?));
-    let freedoms = (0..scales).map(|scale| degrees_of_freedom(copies, scale) as i64);
+    let freedoms = freedoms.into_iter().map(|own| own as i64);
     let freedoms = freedoms.collect::<Vec<_>>().into_pyarray(py);
     fields.push(("freedoms", freedoms.reshape([scales])?.into_any()));
     result(py, "ScaleBudget", &fields)

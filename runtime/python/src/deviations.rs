@@ -1,4 +1,5 @@
-//! What becomes of small deviations: exponents, and the growth of differences.
+//! Small deviations from a motion: Lyapunov exponents, and the growth of differences between
+//! copies.
 
 use branched_pendulum::analysis::variational::{Lyapunov, LyapunovError};
 use branched_pendulum::integrate::Options;
@@ -8,6 +9,7 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
 use crate::IntegrationError;
+use crate::arguments::named;
 use crate::arrays::{Numbers, Row, whole};
 use crate::failures::failed;
 use crate::growth::{GrowthTask, copies};
@@ -19,10 +21,10 @@ use crate::pendulum::{Pendulum, ensemble};
 impl Pendulum {
     /// Returns the largest Lyapunov exponents of a motion.
     ///
-    /// Deviations in general position are made orthonormal after each interval, and their
-    /// growth is counted. A motion of copies in phase stays in phase, and has exponents of two
-    /// kinds: `within`, of deviations that are equal in all copies, and `transverse`, of
-    /// differences between copies, which grow where the largest is positive.
+    /// Deviations in general position are made orthonormal after each interval, and their growth is
+    /// recorded. If copies move in phase, they stay in phase, and there are exponents of two kinds:
+    /// `within`, for deviations that are equal in all copies, and `transverse`, for differences
+    /// between copies, which grow if the largest of these exponents is positive.
     ///
     /// Parameters
     /// ----------
@@ -58,15 +60,15 @@ impl Pendulum {
     fn lyapunov<'py>(
         &self,
         py: Python<'py>,
-        y0: Numbers<'py>,
-        count: i128,
-        interval: f64,
-        settling: i128,
-        intervals: i128,
-        t0: f64,
-        rtol: f64,
-        within: Option<Vec<Vec<String>>>,
-        transverse: Option<Vec<Vec<String>>>,
+        #[pyo3(from_py_with = named::y0)] y0: Numbers<'py>,
+        #[pyo3(from_py_with = named::count)] count: i128,
+        #[pyo3(from_py_with = named::interval)] interval: f64,
+        #[pyo3(from_py_with = named::settling)] settling: i128,
+        #[pyo3(from_py_with = named::intervals)] intervals: i128,
+        #[pyo3(from_py_with = named::t0)] t0: f64,
+        #[pyo3(from_py_with = named::rtol)] rtol: f64,
+        #[pyo3(from_py_with = named::within)] within: Option<Vec<Vec<String>>>,
+        #[pyo3(from_py_with = named::transverse)] transverse: Option<Vec<Vec<String>>>,
     ) -> PyResult<(Row<'py>, Row<'py>)> {
         let start = State::new(t0, y0.row("y0", self.motions.dimension())?);
         let exponents = Lyapunov {
@@ -102,12 +104,12 @@ impl Pendulum {
         Ok((exponents.into_pyarray(py), errors.into_pyarray(py)))
     }
 
-    /// Returns the growth of a vanishing difference between two identical links, and between all
-    /// that hangs from them.
+    /// Returns the growth of an infinitesimal difference between two identical links, including the
+    /// links below them.
     ///
-    /// The differences all begin with one size and at rest, and their common size √(Σ δ²) is
-    /// followed. Growth is looked at 32 times a period of the difference; all is computed at two
-    /// tolerances, of which the finer result is returned.
+    /// All differences δ start with the same size and at rest, and their common size √(Σ δ²) is
+    /// recorded, 32 times per period of the difference. Everything is computed at two tolerances;
+    /// the result for the tighter one is returned.
     ///
     /// Parameters
     /// ----------
@@ -129,7 +131,7 @@ impl Pendulum {
     /// -------
     /// Growth
     ///     `factors` of shape (k, h), `rates` and `frequencies` of shape (k,). NaN where a motion
-    ///     could not be followed, told by the warning `FailedMotions` as in `ensemble`.
+    ///     could not be followed, reported by the warning `FailedMotions` as in `ensemble`.
     ///
     /// Examples
     /// --------
@@ -146,12 +148,12 @@ impl Pendulum {
     fn growth<'py>(
         &self,
         py: Python<'py>,
-        starts: Numbers<'py>,
-        pair: Vec<String>,
-        horizons: Numbers<'py>,
-        frequency: Option<f64>,
-        rtol: f64,
-        threads: Option<i128>,
+        #[pyo3(from_py_with = named::starts)] starts: Numbers<'py>,
+        #[pyo3(from_py_with = named::pair)] pair: Vec<String>,
+        #[pyo3(from_py_with = named::horizons)] horizons: Numbers<'py>,
+        #[pyo3(from_py_with = named::frequency)] frequency: Option<f64>,
+        #[pyo3(from_py_with = named::rtol)] rtol: f64,
+        #[pyo3(from_py_with = named::threads)] threads: Option<i128>,
     ) -> PyResult<Bound<'py, PyAny>> {
         let task = GrowthTask {
             starts: self.starts(&starts, 0.0)?,

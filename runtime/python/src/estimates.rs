@@ -5,23 +5,24 @@ use branched_pendulum_measure::{
     SmoothingError,
 };
 
-/// Draws a motion by normal numbers: states, one after the other.
+/// Function that draws a random motion, given a source of normal random numbers: states, one after
+/// the other.
 pub(crate) type Draw = dyn Fn(&mut dyn FnMut() -> f64) -> Vec<f64> + Send + Sync;
 
-/// Means of an estimated motion and their errors, a row for each time, without Python.
+/// Mean and standard deviation of an estimated motion, one row per time, as Rust data.
 pub(crate) struct Estimate {
     pub(crate) states: [Vec<f64>; 2],
-    /// None where nothing is said of them.
+    /// Accelerations and their standard deviations; `None` if the method does not estimate them.
     pub(crate) accelerations: Option<[Vec<f64>; 2]>,
-    /// Standard deviation of the data of each coordinate that was smoothed.
+    /// Standard deviation of the data, for each coordinate that was smoothed.
     pub(crate) noise: Vec<f64>,
     pub(crate) whiteness: f64,
-    /// Coefficients of friction that equations of motion lack, N m s.
+    /// Friction in the pivot of each link that the equations of motion lack, in N m s.
     pub(crate) frictions: Vec<f64>,
     pub(crate) draw: Box<Draw>,
 }
 
-/// Linear maps between angles of links and the coordinates that are smoothed, a row for each
+/// Linear maps between the angles of the links and the coordinates that are smoothed, one row per
 /// result.
 #[derive(Clone, Debug)]
 pub(crate) struct Coordinates {
@@ -44,7 +45,8 @@ impl Coordinates {
         }
     }
 
-    /// Data of a coordinate: missing where a link is that it is formed of.
+    /// Returns the data of a coordinate; a value is missing if the angle of a link that contributes
+    /// to it is missing.
     fn data(&self, coordinate: usize, angles: &[Vec<Option<f64>>]) -> Vec<Option<f64>> {
         let weights = &self.of_links[coordinate];
         let sum = |row: &Vec<Option<f64>>| {
@@ -57,7 +59,7 @@ impl Coordinates {
         angles.iter().map(sum).collect()
     }
 
-    /// Angles of the links, of values of the coordinates.
+    /// Returns the angles of the links, given the values of the coordinates.
     fn angles(&self, coordinates: &[f64]) -> impl Iterator<Item = f64> {
         let sum = move |weights: &Vec<f64>| -> f64 {
             weights
@@ -69,7 +71,8 @@ impl Coordinates {
         self.links.iter().map(sum)
     }
 
-    /// Deviations of the links, of those of coordinates with independent errors.
+    /// Returns the standard deviations of the links' angles, given those of the coordinates, whose
+    /// errors are independent.
     fn deviations(&self, coordinates: &[f64]) -> impl Iterator<Item = f64> {
         let sum = move |weights: &Vec<f64>| -> f64 {
             let terms = weights.iter().zip(coordinates);
@@ -84,7 +87,7 @@ impl Coordinates {
     }
 }
 
-/// A smoother that knows no equations of motion, by its name.
+/// A smoother that uses no equations of motion, selected by name.
 #[derive(Clone, Copy)]
 pub(crate) enum Smoother {
     Kinematic(KinematicSmoother),
@@ -110,7 +113,7 @@ impl Smoother {
         }
     }
 
-    /// Smooths coordinates of links, each by itself.
+    /// Smooths each of the coordinates separately.
     pub(crate) fn estimate(
         self,
         times: &[f64],

@@ -11,21 +11,22 @@ use numpy::PyArray1;
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 
-use crate::arrays::Number;
+use crate::arguments::Argument;
 use crate::motions::Motions;
 
-/// A function of Python whose zeros are looked for, as SciPy's: with `terminal` and
-/// `direction` as attributes.
+/// A Python function whose zeros are events, as in SciPy: its attributes `terminal` and `direction`
+/// are used.
 pub(crate) struct Watched<'py> {
-    name: String,
+    /// Name for the function's value in messages.
+    value_name: String,
     function: Bound<'py, PyAny>,
     crossing: Crossing,
-    /// Number of the occurrence at which the motion ends; 0 for none.
+    /// Number of the occurrence at which the motion ends; 0 if it never ends the motion.
     terminal: u32,
 }
 
 impl<'py> Watched<'py> {
-    /// Watches one function, or several in a list.
+    /// Reads the events from one Python function, or from a list of functions.
     pub(crate) fn all(events: &Bound<'py, PyAny>) -> PyResult<Vec<Self>> {
         if events.is_callable() {
             return Ok(vec![Self::of("events".to_owned(), events.clone())?]);
@@ -47,7 +48,7 @@ impl<'py> Watched<'py> {
         }
         let attribute = |word: &str| -> PyResult<f64> {
             match function.getattr_opt(word)? {
-                Some(value) if !value.is_none() => Ok(value.extract::<Number>()?.0),
+                Some(value) if !value.is_none() => f64::of(&format!("{name}.{word}"), &value),
                 _ => Ok(0.0),
             }
         };
@@ -66,7 +67,7 @@ impl<'py> Watched<'py> {
             _ => Crossing::Either,
         };
         Ok(Self {
-            name,
+            value_name: format!("the value of {name}"),
             function,
             crossing,
             terminal,
@@ -77,28 +78,25 @@ impl<'py> Watched<'py> {
         // Functions that are no Python look at no signals.
         self.function.py().check_signals()?;
         let state = PyArray1::from_slice(self.function.py(), state);
-        let value = self.function.call1((time, state))?.extract::<Number>();
-        let value = value.map_err(|error| {
-            let reason = error.value(self.function.py());
-            PyTypeError::new_err(format!("the value of {}: {reason}", self.name))
-        });
-        Ok(value?.0)
+        let value = self.function.call1((time, state))?;
+        f64::of(&self.value_name, &value)
     }
 }
 
-/// Times and states of each event.
+/// Times and states of all occurrences of each event.
 pub(crate) type Crossings = Vec<(Vec<f64>, Vec<f64>)>;
 
-/// Events along a motion, as far as it came, and its end.
+/// Events found along a motion, as far as it was computed, and how it ended.
 pub(crate) struct FoundEvents {
     pub(crate) crossings: Crossings,
     pub(crate) outcome: Result<Solution<f64>, IntegrationError<f64>>,
 }
 
-/// Finds events along a motion; the functions are Python's, so that its other threads wait.
+/// Finds events along a motion. Their functions are called in Python, so that other Python threads
+/// wait meanwhile.
 ///
 /// # Errors
-/// What a function has raised, or the handler of a signal.
+/// The exception that a function or the handler of a signal has raised.
 pub(crate) fn find_events(
     motions: &dyn Motions,
     method: &AnyIntegrator<f64>,

@@ -1,4 +1,4 @@
-//! Texts of the trees that the command ships too.
+//! Texts of the example trees, which the command-line program ships too.
 
 use pyo3::prelude::*;
 
@@ -14,7 +14,7 @@ const TREES: [(&str, &str); 8] = [
     ("BRANCH", include_str!("trees/branch.txt")),
 ];
 
-/// Returns names and texts of the trees.
+/// Returns the names and texts of the example trees.
 #[pyfunction]
 pub(crate) fn example_texts() -> Vec<(&'static str, &'static str)> {
     TREES.to_vec()

@@ -1,4 +1,4 @@
-//! Motions that could not be followed, as exceptions and warnings.
+//! Failures of integrations, as Python exceptions and warnings.
 
 use branched_pendulum::integrate::{InputError, IntegrationError as Failure};
 use pyo3::exceptions::PyValueError;
@@ -8,7 +8,7 @@ use pyo3::types::{PyDict, PyTuple, PyType};
 
 use crate::{FailedMotions, IntegrationError};
 
-/// The class of requests that no method can answer: an `IntegrationError`, and a `ValueError`.
+/// Returns the exception class for invalid requests: both an `IntegrationError` and a `ValueError`.
 pub(crate) fn request_error(py: Python<'_>) -> PyResult<&Bound<'_, PyType>> {
     static CLASS: PyOnceLock<Py<PyType>> = PyOnceLock::new();
     let class = CLASS.get_or_try_init(py, || {
@@ -27,7 +27,7 @@ pub(crate) fn request_error(py: Python<'_>) -> PyResult<&Bound<'_, PyType>> {
     Ok(class.bind(py))
 }
 
-/// What is said of a failure, with the argument that helps.
+/// Returns the message for a failure, with the Python argument that may avoid it.
 fn words(failure: &Failure<f64>) -> String {
     match failure {
         Failure::Input(InputError::ToleranceBelowRounding { .. }) => {
@@ -36,6 +36,13 @@ fn words(failure: &Failure<f64>) -> String {
         Failure::Input(InputError::NoSeries) => {
             "method: a compiled model has no Taylor series, a Tree has them".to_owned()
         }
+        Failure::StepTooSmall {
+            step: 0.0, last, ..
+        } => format!(
+            "no step has an error below the tolerance at t = {}, since a component of the state \
+             and its absolute tolerance are 0; help: give atol above 0",
+            last.time
+        ),
         Failure::StepLimit { .. } => format!("{failure}: more are made with max_steps="),
         failure => failure.to_string(),
     }
@@ -53,15 +60,15 @@ pub(crate) fn failed(failure: Failure<f64>) -> PyErr {
     }
 }
 
-/// Failures among many motions, with the place of each.
+/// Failures among many motions: index and message of each.
 #[derive(Default)]
 pub(crate) struct Failures(Vec<(usize, String)>);
 
 impl Failures {
-    /// Notes the failure of one motion.
+    /// Records the failure of one motion.
     ///
     /// # Errors
-    /// It is the request's, not that of a start.
+    /// The failure as an exception, if it is caused by the request and not by a single start.
     pub(crate) fn note(&mut self, place: usize, failure: &Failure<f64>) -> PyResult<()> {
         match failure {
             Failure::Input(InputError::StartValue { .. }) => {}
@@ -72,7 +79,7 @@ impl Failures {
         Ok(())
     }
 
-    /// Warns of the motions that failed among `all`, if there are any.
+    /// Issues a warning if some of the `all` motions have failed.
     pub(crate) fn warn(self, py: Python<'_>, all: usize) -> PyResult<()> {
         let Some((place, reason)) = self.0.first() else {
             return Ok(());

@@ -1,6 +1,6 @@
 //! One motion: `Pendulum.integrate`.
 
-use branched_pendulum::integrate::{AnyIntegrator, Report, RunError, Trajectory};
+use branched_pendulum::integrate::{AnyIntegrator, Method, Report, RunError, Trajectory};
 use branched_pendulum::system::State;
 use numpy::IntoPyArray;
 use pyo3::exceptions::{PyMemoryError, PyValueError};
@@ -13,26 +13,32 @@ use crate::events::{Crossings, Watched, find_events};
 use crate::failures::failed;
 use crate::interrupts::detached;
 use crate::kept::{End, KeepError, Kept, OutputTimes};
-use crate::memory::room;
+use crate::memory::allocate;
 use crate::motions::Motions;
 use crate::pendulum::Pendulum;
-use crate::results::{DenseOutput, report, result};
+use crate::results::{Compared, DenseOutput, report, result};
 use crate::stepping::Stepping;
 
 /// A motion to follow.
 struct Motion<'a> {
     motions: &'a dyn Motions,
+    name: Method,
     method: AnyIntegrator<f64>,
     start: State<f64>,
     dense: bool,
+    /// Method and precision (rad) of a second run to compare with; `None` without comparison.
+    finer: Option<(AnyIntegrator<f64>, f64)>,
 }
 
 impl Motion<'_> {
-    /// Follows it; what it kept is there after a failure too, with the last good state.
+    /// Integrates the motion. If it fails, the results up to the last good state are returned too.
     fn follow(&self, py: Python<'_>, wanted: OutputTimes<'_>) -> PyResult<(Kept, End)> {
         let dimension = self.start.values.len();
         let (times, states) = match wanted {
-            OutputTimes::At(times) => (room(&[times.len()])?, room(&[times.len(), dimension])?),
+            OutputTimes::At { times, .. } => (
+                allocate(&[times.len()])?,
+                allocate(&[times.len(), dimension])?,
+            ),
             OutputTimes::AllSteps(_) => (Vec::new(), Vec::new()),
         };
         let mut kept = Kept {
@@ -63,6 +69,7 @@ impl Motion<'_> {
         crossings: Crossings,
     ) -> PyResult<Bound<'py, PyAny>> {
         let dimension = self.start.values.len();
+        let compared = self.compared(py, &kept)?;
         let (t_events, y_events) = (PyList::empty(py), PyList::empty(py));
         for (times, states) in crossings {
             t_events.append(times.into_pyarray(py))?;
@@ -77,14 +84,29 @@ impl Motion<'_> {
             ("y", matrix(py, kept.states, dimension)?.into_any()),
             ("t_events", t_events.into_any()),
             ("y_events", y_events.into_any()),
-            ("report", report(py, account)?),
+            ("report", report(py, self.name, account, compared)?),
             ("names", self.motions.names().into_pyobject(py)?.into_any()),
             ("dense", dense.into_pyobject(py)?.into_any()),
         ];
         result(py, "Solution", &fields)
     }
 
-    /// The solution, or the exception with what there is of it.
+    /// Compares the motion with a run of the finer method, if there is one.
+    fn compared(&self, py: Python<'_>, kept: &Kept) -> PyResult<Option<Compared>> {
+        let Some((finer, precision)) = &self.finer else {
+            return Ok(None);
+        };
+        let found = detached(py, || {
+            let motions = self.motions;
+            motions.differs_from(finer, &self.start, kept, *precision)
+        })?;
+        Ok(Some(Compared {
+            precision: *precision,
+            differs_from: found.map_err(failed)?,
+        }))
+    }
+
+    /// Returns the solution, or raises an exception that contains the results so far.
     fn end<'py>(
         &self,
         py: Python<'py>,
@@ -124,19 +146,32 @@ impl Pendulum {
         stepping: &Stepping<'_, 'py>,
         events: Option<&Bound<'py, PyAny>>,
         dense: bool,
+        precision: Option<f64>,
     ) -> PyResult<Bound<'py, PyAny>> {
         let motions = &*self.motions;
         let dimension = motions.dimension();
         let method = stepping.integrator(dimension)?;
+        let finer = match precision {
+            None => None,
+            Some(precision) if precision > 0.0 && precision.is_finite() => {
+                Some((stepping.finer(dimension)?, precision))
+            }
+            Some(precision) => {
+                let text = format!("precision is {precision}, must be positive and finite");
+                return Err(PyValueError::new_err(text));
+            }
+        };
         let mut times = t.numbers.list("t")?;
         let (Some(&first), Some(&last)) = (times.first(), times.last()) else {
             return Err(PyValueError::new_err("t has no times"));
         };
         let motion = Motion {
             motions,
+            name: stepping.method()?,
             method,
             start: State::new(first, y0.row("y0", dimension)?),
             dense,
+            finer,
         };
         let watched = match events {
             Some(events) => Watched::all(events)?,
@@ -167,6 +202,6 @@ impl Pendulum {
 fn wanted(is_span: bool, times: &[f64], end: f64) -> OutputTimes<'_> {
     match is_span {
         true => OutputTimes::AllSteps(end),
-        false => OutputTimes::At(times),
+        false => OutputTimes::At { times, end },
     }
 }

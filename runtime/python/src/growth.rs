@@ -14,7 +14,8 @@ use crate::memory::{bytes, need};
 use crate::motions::Motions;
 use crate::results::{array, result};
 
-/// Sets of links that are copies and in phase at all starts, by their names.
+/// Returns the sets of links that are copies and in phase at all starts, given the names of the
+/// links.
 pub(crate) fn copies(
     motions: &dyn Motions,
     alike: &[Vec<String>],
@@ -37,7 +38,11 @@ fn no_copies(alike: &[Vec<String>]) -> PyErr {
     let sets: Vec<String> = sets
         .map(|set| format!("`{}`", set.join("` and `")))
         .collect();
-    let text = format!("{} are no copies that start alike", sets.join(" or "));
+    let text = format!(
+        "{} are not copies that start in phase: links that differ by `each(…)` have no motion in phase, \
+         and copies need equal angles and velocities at every start",
+        sets.join(" or ")
+    );
     PyValueError::new_err(text)
 }
 
@@ -50,7 +55,7 @@ pub(crate) struct GrowthTask {
 }
 
 impl GrowthTask {
-    /// Growth of a difference between two links, by their names, along all motions.
+    /// Computes the growth of a difference between two links, given by name, along all motions.
     pub(crate) fn grown<'py>(
         self,
         py: Python<'py>,
@@ -89,8 +94,8 @@ impl GrowthTask {
         self.result(py, &all)
     }
 
-    /// Passes horizons up to which there is room for the times of all looks, and for the states of
-    /// all motions at those of them that are kept.
+    /// Checks that memory suffices for the times of all samples, and for the states of all motions
+    /// at the samples that are kept at a time.
     fn check_memory(&self, differences: &DifferenceGrowth) -> PyResult<()> {
         let last = self.horizons.last().copied().unwrap_or(0.0);
         let looks = Growth::LOOKS_A_PERIOD * differences.growth().frequency_hz * last;

@@ -1,38 +1,42 @@
-//! Parameters of a tree from its measured motion and frequencies: `Tree.identify`.
+//! Identification of a tree's parameters from its measured motion and frequencies: `Tree.identify`.
+
+use std::ops::ControlFlow;
 
 use branched_pendulum_measure::identification::{
     AngleErrors, AngleRecord, Fit, FittedFrequency, Frequency, Identification, IdentificationError,
-    SearchFailure, Shooting, Standing, Unfound,
+    Standing,
 };
 use branched_pendulum_trees::{ParameterUse, TreeDescription};
 use pyo3::exceptions::{PyKeyError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
-use pyo3::types::{PyDict, PyList};
+use pyo3::types::{PyDict, PyList, PyMapping};
 
+use crate::arguments::{Argument, Entries, named, refused};
 use crate::arrays::Numbers;
 use crate::interrupts::on_own_thread;
+use crate::jumps::refuse_jumps;
 use crate::memory::{bytes, need};
 use crate::results::{array, result};
 use crate::smoothing::rows;
 use crate::tree::Tree;
 
-/// Sizes of coefficients of friction that are searched for from 0: viscous and Coulomb friction
-/// (N m s, N m), and quadratic (N m s²).
+/// Typical sizes of friction coefficients whose search starts at 0: viscous and Coulomb friction (N
+/// m s, N m), and quadratic (N m s²).
 const FRICTION: [f64; 2] = [1e-4, 1e-5];
 
-/// Numbers that a fit keeps of a datum, about.
+/// Approximate number of values that a fit stores per measured value, for the memory check.
 const NUMBERS_OF_A_DATUM: usize = 100;
 
-/// What is looked for.
+/// Unknowns.
 struct Search {
     task: Identification<TreeDescription>,
     record: AngleRecord,
-    /// The part that is fitted ends there, s.
+    /// End time of the part of the record that is fitted, in s.
     until: f64,
     window: f64,
 }
 
-/// What was found.
+/// Results.
 struct Found {
     fit: Fit,
     failure: Option<String>,
@@ -40,63 +44,47 @@ struct Found {
 }
 
 impl Search {
-    /// Fits windows, then one motion that goes on from them; without a motion frequencies alone.
+    /// Fits short windows first, and then one motion over the whole record, starting from their
+    /// result. Without a record of a motion, fits only the frequencies.
     fn find(&self) -> Result<Found, IdentificationError> {
-        if self.record.times().is_empty() {
-            return match self.task.fit_to_frequencies() {
-                Err(IdentificationError::NotFound(unfound)) => {
-                    self.found(unfound.best.clone(), Some(&unfound))
-                }
-                fit => self.found(fit?, None),
-            };
-        }
         let fitted = self.record.between(f64::NEG_INFINITY, self.until);
-        let short = self.task.clone().with_shooting(Shooting {
-            first: self.window,
-            longest: self.window,
-            ..Shooting::default()
-        });
-        let windows = match short.fit(&fitted) {
-            Err(IdentificationError::NotFound(unfound))
-                if matches!(unfound.failure, SearchFailure::Lost { .. }) =>
-            {
-                short.fit_in_segments(&fitted)
-            }
-            found => found,
+        // Signals of Python end the computation by themselves.
+        let observer = |_: &_| ControlFlow::Continue(());
+        let found = self
+            .task
+            .fit_by_windows(&fitted, self.window, None, &observer)?;
+        let failure = found.one_motion.as_ref().err().map(ToString::to_string);
+        let driving = found.one_motion.as_ref().ok().and_then(driving);
+        let errors = match (found.motion(), &found.one_motion) {
+            (None, _) => AngleErrors::default(),
+            (Some(motion), Ok(_)) => self.task.errors(motion, &self.record)?,
+            // Constants that were not found need not be those of a motion.
+            (Some(motion), Err(_)) => self
+                .task
+                .errors(motion, &self.record)
+                .unwrap_or_else(|_| AngleErrors::missing(&self.record)),
         };
-        let found = match windows {
-            Ok(windows) => match self.task.fit_from(&windows, &fitted) {
-                // A chaotic motion is lost as one, and has its windows.
-                Err(IdentificationError::NotFound(unfound)) => Found {
-                    errors: self.errors(&unfound.best)?,
-                    failure: Some(unfound.to_string()),
-                    fit: windows,
-                },
-                fit => self.found(fit?, None)?,
-            },
-            Err(IdentificationError::NotFound(unfound)) => {
-                self.found(unfound.best.clone(), Some(&unfound))?
-            }
-            Err(error) => return Err(error),
+        // A chaotic motion is lost as one, and has its windows.
+        let fit = match found.result() {
+            Ok(fit) => fit.clone(),
+            Err(unfound) => unfound.best.clone(),
         };
-        Ok(found)
-    }
-
-    fn found(&self, fit: Fit, unfound: Option<&Unfound>) -> Result<Found, IdentificationError> {
         Ok(Found {
-            errors: self.errors(&fit)?,
-            failure: unfound.map(ToString::to_string),
             fit,
+            failure: failure.or(driving),
+            errors,
         })
     }
+}
 
-    /// Errors of one motion, to the end of the record; none of windows.
-    fn errors(&self, fit: &Fit) -> Result<AngleErrors, IdentificationError> {
-        match fit.starts.len() {
-            1 => self.task.errors(fit, &self.record),
-            _ => Ok(AngleErrors::default()),
-        }
-    }
+/// Returns a warning if a fit found negative friction, which adds energy; such a fit has no
+/// standard deviations.
+fn driving(fit: &Fit) -> Option<String> {
+    let impossible = fit.driving_friction()?;
+    Some(format!(
+        "no fit with friction that brakes: {impossible}; the law of friction is not that of the real \
+         pendulum; help: name the coefficient in `nonnegative`"
+    ))
 }
 
 impl Found {
@@ -174,23 +162,17 @@ fn fitted<'py>(py: Python<'py>, own: &FittedFrequency) -> PyResult<Bound<'py, Py
     result(py, "FittedFrequency", &fields)
 }
 
-/// A measured frequency: its value and its standard error, with the number of its mode or without.
+/// A measured frequency: its value and standard error, optionally with the number of its mode.
 pub(crate) struct MeasuredFrequency(Frequency);
 
-impl<'a, 'py> FromPyObject<'a, 'py> for MeasuredFrequency {
-    type Error = PyErr;
-
-    fn extract(object: Borrowed<'a, 'py, PyAny>) -> PyResult<Self> {
+impl Argument<'_, '_> for MeasuredFrequency {
+    fn of(name: &str, object: &Bound<'_, PyAny>) -> PyResult<Self> {
         let wrong = || {
-            PyTypeError::new_err(format!(
-                "{} is no frequency with its standard error (Hz): must be (hertz, deviation), or \
-                 (hertz, deviation, mode) with the number of its mode, 1 for the slowest",
-                object
-                    .repr()
-                    .map_or_else(|_| "it".to_owned(), |text| text.to_string())
-            ))
+            let accepted = "a frequency with its standard error in Hz, (hertz, deviation), or with \
+                            the number of its mode, (hertz, deviation, mode), 1 for the slowest";
+            refused(name, accepted, object)
         };
-        let numbers: Vec<f64> = object.extract().map_err(|_| wrong())?;
+        let numbers = Vec::<f64>::of(name, object).map_err(|_| wrong())?;
         let (hertz, deviation, mode) = match *numbers {
             [hertz, deviation] => (hertz, deviation, None),
             [hertz, deviation, mode] if mode >= 0.0 && mode.fract() == 0.0 => {
@@ -206,15 +188,23 @@ impl<'a, 'py> FromPyObject<'a, 'py> for MeasuredFrequency {
     }
 }
 
-/// Names of unknowns with the values from which they are searched.
-#[derive(FromPyObject)]
+/// Names of the unknown parameters, optionally with values at which the search starts.
 pub(crate) enum GuessesOrNames {
-    Guesses(std::collections::BTreeMap<String, f64>),
+    Guesses(Entries<f64>),
     Names(Vec<String>),
 }
 
+impl Argument<'_, '_> for GuessesOrNames {
+    fn of(name: &str, object: &Bound<'_, PyAny>) -> PyResult<Self> {
+        match object.cast::<PyMapping>().is_ok() {
+            true => Entries::of(name, object).map(Self::Guesses),
+            false => Vec::of(name, object).map(Self::Names),
+        }
+    }
+}
+
 impl Tree {
-    /// Angles of all links against time.
+    /// Converts times and measured angles of all links to a record for the fit.
     fn record(&self, t: &Numbers<'_>, theta: &Numbers<'_>) -> PyResult<AngleRecord> {
         let (times, angles) = (t.list("t")?, rows("theta", theta, t.shape())?);
         let names = self.tree().names();
@@ -224,6 +214,7 @@ impl Tree {
             let text = format!("theta has {columns} columns, must have {links}, one for each link");
             return Err(PyValueError::new_err(text));
         }
+        refuse_jumps(&angles)?;
         need(
             "the fit",
             bytes(&[times.len(), columns], NUMBERS_OF_A_DATUM),
@@ -249,7 +240,7 @@ impl Tree {
             PyKeyError::new_err(format!("there is no parameter `{name}`: there are {names}"))
         };
         let guesses: Vec<(String, f64)> = match unknown {
-            GuessesOrNames::Guesses(guesses) => guesses.into_iter().collect(),
+            GuessesOrNames::Guesses(Entries(guesses)) => guesses,
             GuessesOrNames::Names(names) => names
                 .into_iter()
                 .map(|name| {
@@ -281,7 +272,7 @@ impl Tree {
     }
 }
 
-fn refused(error: IdentificationError) -> PyErr {
+fn unfit(error: IdentificationError) -> PyErr {
     PyValueError::new_err(error.to_string())
 }
 
@@ -290,9 +281,12 @@ impl Tree {
     /// Finds parameters of the tree from its measured motion, from frequencies of small motions,
     /// or from both.
     ///
-    /// Windows are fitted first, then one motion that goes on from them; where that is lost, as
-    /// chaotic ones are, the windows count. Frequencies weigh by their standard errors, and angles
-    /// beside them by what is left over of them.
+    /// Short windows are fitted first, then one motion over the whole record, starting from their
+    /// result; if that fit fails, as for chaotic motions, the result of the windows is returned.
+    /// The number of evaluations is bounded, in proportion to times and unknowns: a search that
+    /// needs more ends with the best result so far and a `failure`. So does a search that ends at
+    /// constants that are not physical; these have no standard deviations. Frequencies are weighted
+    /// by their standard errors; angles, if both are given, by their residuals.
     ///
     /// Parameters
     /// ----------
@@ -300,7 +294,7 @@ impl Tree {
     ///     Times (s), ascending. Without them frequencies alone are fitted.
     /// theta : array, shape (m, n)
     ///     Angles (rad from the downward vertical, without jumps), a column for each link; NaN
-    ///     where they are missing.
+    ///     where they are missing. Angles that jump by more than half a turn are refused.
     /// unknown : list of str, or dict of guesses
     ///     Parameters that are looked for, from within some 30 % of their guesses or of the values
     ///     that the tree has; friction from 0. All others have the values of the tree.
@@ -348,14 +342,14 @@ impl Tree {
     fn identify<'py>(
         &self,
         py: Python<'py>,
-        t: Option<Numbers<'py>>,
-        theta: Option<Numbers<'py>>,
-        unknown: Option<GuessesOrNames>,
-        frequencies: Vec<MeasuredFrequency>,
-        until: Option<f64>,
-        offsets: bool,
-        nonnegative: Vec<String>,
-        window: f64,
+        #[pyo3(from_py_with = named::t)] t: Option<Numbers<'py>>,
+        #[pyo3(from_py_with = named::theta)] theta: Option<Numbers<'py>>,
+        #[pyo3(from_py_with = named::unknown)] unknown: Option<GuessesOrNames>,
+        #[pyo3(from_py_with = named::frequencies)] frequencies: Vec<MeasuredFrequency>,
+        #[pyo3(from_py_with = named::until)] until: Option<f64>,
+        #[pyo3(from_py_with = named::offsets)] offsets: bool,
+        #[pyo3(from_py_with = named::nonnegative)] nonnegative: Vec<String>,
+        #[pyo3(from_py_with = named::window)] window: f64,
     ) -> PyResult<Bound<'py, PyAny>> {
         let unknown = unknown.ok_or_else(|| {
             PyTypeError::new_err("unknown is missing: name the parameters that are looked for")
@@ -390,7 +384,7 @@ impl Tree {
             until,
             window,
         };
-        let found = on_own_thread(py, move || search.find())?.map_err(refused)?;
+        let found = on_own_thread(py, move || search.find())?.map_err(unfit)?;
         found.result(py, self, until)
     }
 }

@@ -1,4 +1,4 @@
-//! Native work that signals of Python end: Ctrl-C.
+//! Native work that signals of Python, such as Ctrl-C, can interrupt.
 
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
@@ -12,20 +12,20 @@ use branched_pendulum::interruption::{Interrupted, interruptible};
 use pyo3::exceptions::{PyKeyboardInterrupt, PyRuntimeError};
 use pyo3::prelude::*;
 
-/// Time between two looks at the signals.
-const LOOK: Duration = Duration::from_millis(20);
+/// Interval at which pending signals are checked.
+const CHECK_INTERVAL: Duration = Duration::from_millis(20);
 
-/// Time for which a thread is waited for that is to end.
+/// Time for which an interrupted thread is waited for until it ends.
 const PATIENCE: Duration = Duration::from_millis(100);
 
-/// Stack of a thread of its own, in bytes: that of a main thread.
+/// Stack size of a separate thread, in bytes; the same as for a main thread.
 const STACK: usize = 8 << 20;
 
-/// Does work on this thread, without Python's lock, that looks between its steps whether it is
-/// to go on (`interruption::look`).
+/// Runs work on this thread without Python's global lock. The work must check between its steps if
+/// it was interrupted (`interruption::look`).
 ///
 /// # Errors
-/// What the handler of a signal has raised.
+/// The exception that the handler of a signal has raised.
 pub(crate) fn detached<R: Send>(py: Python<'_>, work: impl FnOnce() -> R + Send) -> PyResult<R> {
     let raised = Arc::new(Mutex::new(None));
     let kept = raised.clone();
@@ -44,11 +44,12 @@ pub(crate) fn detached<R: Send>(py: Python<'_>, work: impl FnOnce() -> R + Send)
 
 type Outcome<R> = Result<Result<R, Interrupted>, Box<dyn Any + Send>>;
 
-/// Does work on a thread of its own: work of which parts, those of other libraries, look at
-/// nothing. After a signal it is left alone if it does not end soon, and ends with that part.
+/// Runs work on a separate thread, for work that includes parts (of other libraries) that cannot be
+/// interrupted. If it does not end soon after a signal, it is abandoned, and ends after that part.
 ///
 /// # Errors
-/// What the handler of a signal has raised; that no thread was to be had.
+/// The exception that the handler of a signal has raised, or an error if no thread could be
+/// started.
 pub(crate) fn on_own_thread<R: Send + 'static>(
     py: Python<'_>,
     work: impl FnOnce() -> R + Send + 'static,
@@ -59,13 +60,13 @@ pub(crate) fn on_own_thread<R: Send + 'static>(
     let job = move || {
         let is_over = move || is_over.load(Ordering::Relaxed);
         let outcome = catch_unwind(AssertUnwindSafe(|| interruptible(is_over, work)));
-        // An error tells that nobody waits any more.
+        // An error means that nobody waits any more.
         drop(sender.send(outcome));
     };
     thread::Builder::new().stack_size(STACK).spawn(job)?;
     loop {
         let received;
-        (receiver, received) = wait(py, receiver, LOOK);
+        (receiver, received) = wait(py, receiver, CHECK_INTERVAL);
         match received {
             Ok(Ok(Ok(result))) => return Ok(result),
             Ok(Err(panic)) => resume_unwind(panic),

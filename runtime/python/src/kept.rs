@@ -1,20 +1,24 @@
-//! States of a motion that are kept for Python, as far as it came.
+//! States of a motion that are kept for Python, as far as the motion was computed.
 
 use branched_pendulum::integrate::{DenseError, Report, RunError, Trajectory};
 
-/// Times at which states are wanted.
+/// Times at which states of a motion are requested.
 #[derive(Clone, Copy)]
 pub(crate) enum OutputTimes<'a> {
-    At(&'a [f64]),
-    /// The ends of all steps up to a time.
+    At {
+        times: &'a [f64],
+        /// End of the motion: the last of these times, or a later event.
+        end: f64,
+    },
+    /// The ends of all steps up to this time.
     AllSteps(f64),
 }
 
-/// What is kept of a motion, as far as it came.
+/// States of a motion at the requested times, up to its end.
 pub(crate) struct Kept {
     pub(crate) times: Vec<f64>,
     pub(crate) states: Vec<f64>,
-    /// All steps, if they are wanted.
+    /// All steps of the motion, if dense output is requested.
     pub(crate) trajectory: Option<Trajectory<f64>>,
 }
 
@@ -36,7 +40,8 @@ impl Kept {
         Ok(())
     }
 
-    /// Adds the states at those times that the steps came by: all, if they came to their end.
+    /// Adds the states at those requested times that the steps have reached; all of them if the
+    /// motion reached its end.
     pub(crate) fn sample(&mut self, times: &[f64], at_end: bool) -> Result<(), KeepError> {
         let Some(trajectory) = self.trajectory.take() else {
             return Ok(());
@@ -53,5 +58,5 @@ impl Kept {
     }
 }
 
-/// End of a run: the account, or why it ended before.
+/// Outcome of a run: its report, or the error that ended it early.
 pub(crate) type End = Result<Report<f64>, Box<RunError<f64, KeepError>>>;

@@ -1,10 +1,12 @@
-//! Pendulum trees for Python: the module `branched_pendulum._native`.
+//! Python bindings for pendulum trees: the native module `branched_pendulum._native`.
 
 mod advise;
+mod arguments;
 mod arrays;
 mod branched_double;
 mod budget;
 mod deviations;
+mod equilibria;
 mod estimates;
 mod events;
 mod examples;
@@ -13,12 +15,14 @@ mod following;
 mod growth;
 mod identify;
 mod interrupts;
+mod jumps;
 mod kept;
 mod measured_model;
 mod mechanics;
 mod memory;
 mod model_smoothing;
 mod motions;
+mod normal_form;
 mod observables;
 mod pendulum;
 mod recording;
@@ -60,7 +64,7 @@ pyo3::create_exception!(
 );
 
 pyo3::create_exception!(
-    branched_pendulum,
+    branched_pendulum.data,
     ReadError,
     PyValueError,
     "A file of measurements that is not understood: `file`, and where there is one the place in \
@@ -93,6 +97,7 @@ fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<recording::Recording>()?;
     module.add_class::<smoothing::SmoothedMotion>()?;
     module.add_class::<spectrum::Lines>()?;
+    module.add_class::<normal_form::PyNormalForm>()?;
     module.add_class::<stepper::PyStepper>()?;
     module.add_function(wrap_pyfunction!(recording::read, module)?)?;
     module.add_function(wrap_pyfunction!(examples::example_texts, module)?)?;

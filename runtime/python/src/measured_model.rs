@@ -1,4 +1,4 @@
-//! Models whose motions are followed and measured.
+//! Models whose motions can be integrated, and smoothed from measured angles.
 
 use std::borrow::Cow;
 
@@ -9,27 +9,28 @@ use branched_pendulum_trees::{PendulumTree, TreeError};
 
 use crate::estimates::Coordinates;
 
-/// A model with what its measured motions are smoothed by.
+/// A model with what is needed to smooth measured motions.
 pub(crate) trait MeasuredModel: Energy<f64> + Clone + Send + Sync + 'static {
-    /// The equations, with Taylor coefficients where the model has them.
+    /// Type of the equations, with Taylor coefficients if the model has them.
     type Series<'a>: TaylorOde<f64>;
 
-    /// Returns the equations for methods that may ask for Taylor coefficients.
+    /// Returns the equations for methods that may need Taylor coefficients.
     fn series(system: &AbsoluteAngles<Self>) -> Self::Series<'_>;
 
     /// Returns the model as a tree at run time.
     ///
     /// # Errors
-    /// None of a description that was read before.
+    /// None if the description was read before.
     fn as_tree(&self) -> Result<Cow<'_, PendulumTree>, TreeError>;
 
-    /// Returns the model with other values of parameters.
+    /// Returns the same model with other values of some parameters.
     ///
     /// # Errors
-    /// Why there is no such model.
+    /// The reason why the values are invalid.
     fn with_values(&self, values: &[(&str, f64)]) -> Result<Self, String>;
 
-    /// Samples of many motions by Taylor series; none of models without.
+    /// Samples many motions by the Taylor series method; `None` if the model has no Taylor
+    /// coefficients.
     fn series_ensemble(
         method: &Taylor<f64>,
         system: &AbsoluteAngles<Self>,
@@ -38,13 +39,13 @@ pub(crate) trait MeasuredModel: Energy<f64> + Clone + Send + Sync + 'static {
         times: &[f64],
     ) -> Option<Vec<Samples<f64>>>;
 
-    /// The mass matrix (kg m²) at angles, a row for each link.
+    /// Returns the mass matrix (kg m²) at the given angles, one row per link.
     fn mass_rows(&self, theta: &[f64]) -> Vec<Vec<f64>>;
 
-    /// The link that each hangs from; of the root none.
+    /// Returns the index of each link's parent; `None` for the root.
     fn link_parents(&self) -> Vec<Option<usize>>;
 
-    /// Coordinates in which measured angles are smoothed.
+    /// Returns the coordinates in which measured angles are smoothed.
     fn smoothed_coordinates(&self) -> Coordinates {
         Coordinates::links(self.links())
     }

@@ -1,29 +1,16 @@
-//! Mechanics of trees: accelerations, energies, momenta, matrices, modes and positions.
+//! Mechanics of trees: accelerations, energies, momenta, matrices and positions.
 
 use branched_pendulum::system::{Energy, Forced, LinkPoint, Model, Pendulum as _, Positions};
-use numpy::IntoPyArray;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
-use crate::arrays::{Matrix, Numbers, Row, Together, by_state, matrix};
+use crate::arguments::named;
+use crate::arrays::{Numbers, Together, by_state};
 use crate::budget::scale_budget;
-use crate::interrupts::on_own_thread;
 use crate::memory::{bytes, need};
 use crate::tree::Tree;
 
-/// Copies of a matrix that its eigenvectors take.
-const MATRICES: usize = 6;
-
 impl Tree {
-    /// Angles that were given, or zeros.
-    fn angles(&self, theta: Option<Numbers<'_>>) -> PyResult<Vec<f64>> {
-        let links = self.tree().links();
-        match theta {
-            Some(theta) => theta.row("theta", links),
-            None => Ok(vec![0.0; links]),
-        }
-    }
-
     fn matrices<'py>(
         &self,
         py: Python<'py>,
@@ -68,10 +55,10 @@ impl Tree {
     fn accelerations<'py>(
         &self,
         py: Python<'py>,
-        theta: Numbers<'py>,
-        omega: Numbers<'py>,
-        time: f64,
-        torques: Option<Numbers<'py>>,
+        #[pyo3(from_py_with = named::theta)] theta: Numbers<'py>,
+        #[pyo3(from_py_with = named::omega)] omega: Numbers<'py>,
+        #[pyo3(from_py_with = named::time)] time: f64,
+        #[pyo3(from_py_with = named::torques)] torques: Option<Numbers<'py>>,
     ) -> PyResult<Bound<'py, PyAny>> {
         let (tree, n) = (self.tree(), self.tree().links());
         let states = [("theta", &theta, n), ("omega", &omega, n)];
@@ -87,6 +74,46 @@ impl Tree {
                 })
             }
         }
+    }
+
+    /// Returns the generalized torques of a given motion.
+    ///
+    /// Parameters
+    /// ----------
+    /// theta, omega, alpha : array, shape (..., n)
+    ///     Angles (rad), angular velocities (rad/s) and angular accelerations (rad/s²).
+    /// time : float, optional
+    ///     Time of the drive (s).
+    ///
+    /// Returns
+    /// -------
+    /// array, shape (..., n)
+    ///     Torques (N m) in addition to gravity, springs, friction and drive:
+    ///     `accelerations` under these torques are `alpha`.
+    ///
+    /// Examples
+    /// --------
+    /// >>> rod = bp.Tree("gravity = 9.81, rod: rod(mass = 1, length = 1)")
+    /// >>> rod.inverse_dynamics([0.0], [0.0], [3.0])
+    /// array([1.])
+    #[pyo3(signature = (theta, omega, alpha, time = 0.0))]
+    fn inverse_dynamics<'py>(
+        &self,
+        py: Python<'py>,
+        #[pyo3(from_py_with = named::theta)] theta: Numbers<'py>,
+        #[pyo3(from_py_with = named::omega)] omega: Numbers<'py>,
+        #[pyo3(from_py_with = named::alpha)] alpha: Numbers<'py>,
+        #[pyo3(from_py_with = named::time)] time: f64,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let (tree, n) = (self.tree(), self.tree().links());
+        let motion = [
+            ("theta", &theta, n),
+            ("omega", &omega, n),
+            ("alpha", &alpha, n),
+        ];
+        Together::of(&motion)?.each(py, &[n], |given, out| {
+            tree.inverse_dynamics_into(time, given[0], given[1], given[2], out);
+        })
     }
 
     /// Returns the kinetic energy.
@@ -109,8 +136,8 @@ impl Tree {
     fn kinetic_energy<'py>(
         &self,
         py: Python<'py>,
-        theta: Numbers<'py>,
-        omega: Numbers<'py>,
+        #[pyo3(from_py_with = named::theta)] theta: Numbers<'py>,
+        #[pyo3(from_py_with = named::omega)] omega: Numbers<'py>,
     ) -> PyResult<Bound<'py, PyAny>> {
         let (tree, n) = (self.tree(), self.tree().links());
         let together = Together::of(&[("theta", &theta, n), ("omega", &omega, n)])?;
@@ -139,7 +166,7 @@ impl Tree {
     fn potential_energy<'py>(
         &self,
         py: Python<'py>,
-        theta: Numbers<'py>,
+        #[pyo3(from_py_with = named::theta)] theta: Numbers<'py>,
     ) -> PyResult<Bound<'py, PyAny>> {
         let tree = self.tree();
         let together = Together::of(&[("theta", &theta, tree.links())])?;
@@ -165,7 +192,11 @@ impl Tree {
     /// >>> rod = bp.Tree("gravity = 9.81, rod: rod(mass = 1, length = 1, friction = 0.1)")
     /// >>> float(rod.friction_power([0.0, 2.0]).round(12))
     /// -0.4
-    fn friction_power<'py>(&self, py: Python<'py>, y: Numbers<'py>) -> PyResult<Bound<'py, PyAny>> {
+    fn friction_power<'py>(
+        &self,
+        py: Python<'py>,
+        #[pyo3(from_py_with = named::y)] y: Numbers<'py>,
+    ) -> PyResult<Bound<'py, PyAny>> {
         let (tree, n) = (self.tree(), self.tree().links());
         by_state(py, &y, 2 * n, |state| {
             let (theta, omega) = state.split_at_checked(n).unwrap_or_default();
@@ -173,7 +204,8 @@ impl Tree {
         })
     }
 
-    /// Returns energies by scale, what scales give each other and the powers on them.
+    /// Returns energies by scale, the energy transfers between scales, and the powers on each
+    /// scale.
     ///
     /// Parameters
     /// ----------
@@ -203,9 +235,9 @@ impl Tree {
     fn budget<'py>(
         &self,
         py: Python<'py>,
-        y: Numbers<'py>,
-        t: Option<Numbers<'py>>,
-        torques: Option<Numbers<'py>>,
+        #[pyo3(from_py_with = named::y)] y: Numbers<'py>,
+        #[pyo3(from_py_with = named::t)] t: Option<Numbers<'py>>,
+        #[pyo3(from_py_with = named::torques)] torques: Option<Numbers<'py>>,
     ) -> PyResult<Bound<'py, PyAny>> {
         let times = t.map_or_else(|| Numbers::zero(py), Ok)?;
         scale_budget(py, self.tree(), &y, &times, torques.as_ref())
@@ -231,8 +263,8 @@ impl Tree {
     fn momenta<'py>(
         &self,
         py: Python<'py>,
-        theta: Numbers<'py>,
-        omega: Numbers<'py>,
+        #[pyo3(from_py_with = named::theta)] theta: Numbers<'py>,
+        #[pyo3(from_py_with = named::omega)] omega: Numbers<'py>,
     ) -> PyResult<Bound<'py, PyAny>> {
         let (tree, n) = (self.tree(), self.tree().links());
         let together = Together::of(&[("theta", &theta, n), ("omega", &omega, n)])?;
@@ -261,7 +293,7 @@ impl Tree {
     fn mass_matrix<'py>(
         &self,
         py: Python<'py>,
-        theta: Numbers<'py>,
+        #[pyo3(from_py_with = named::theta)] theta: Numbers<'py>,
     ) -> PyResult<Bound<'py, PyAny>> {
         self.matrices(py, &theta, |theta| self.tree().mass_matrix(theta))
     }
@@ -286,71 +318,9 @@ impl Tree {
     fn stiffness_matrix<'py>(
         &self,
         py: Python<'py>,
-        theta: Numbers<'py>,
+        #[pyo3(from_py_with = named::theta)] theta: Numbers<'py>,
     ) -> PyResult<Bound<'py, PyAny>> {
         self.matrices(py, &theta, |theta| self.tree().stiffness_matrix(theta))
-    }
-
-    /// Returns the linear modes about an equilibrium.
-    ///
-    /// Parameters
-    /// ----------
-    /// theta : array, shape (n,)
-    ///     Angles (rad) at which the tree is at rest: zeros, if none are given. `equilibrium`
-    ///     finds some.
-    ///
-    /// Returns
-    /// -------
-    /// frequencies : array, shape (n,)
-    ///     Frequencies (Hz), ascending.
-    /// shapes : array, shape (n, n)
-    ///     A row for each mode.
-    ///
-    /// Examples
-    /// --------
-    /// >>> frequencies, shapes = bp.Tree(bp.examples.PAPER, friction=0).modes()
-    /// >>> frequencies.round(7)
-    /// array([0.8731696, 1.2580584, 1.5825567])
-    #[pyo3(signature = (theta = None))]
-    fn modes<'py>(
-        &self,
-        py: Python<'py>,
-        theta: Option<Numbers<'py>>,
-    ) -> PyResult<(Row<'py>, Matrix<'py>)> {
-        let n = self.tree().links();
-        let theta = self.angles(theta)?;
-        need("modes of all links", bytes(&[n, n], MATRICES))?;
-        let tree = self.tree().clone();
-        let modes = on_own_thread(py, move || tree.modes(&theta))?;
-        let modes = modes.map_err(|error| PyValueError::new_err(error.to_string()))?;
-        let shapes = matrix(py, modes.shapes.concat(), n)?;
-        Ok((modes.frequencies_hz.into_pyarray(py), shapes))
-    }
-
-    /// Returns angles at which the tree stays at rest, stable or not; the drive is left out.
-    ///
-    /// Parameters
-    /// ----------
-    /// theta : array, shape (n,)
-    ///     Angles (rad) near which it is looked for: zeros, if none are given.
-    ///
-    /// Returns
-    /// -------
-    /// array, shape (n,)
-    ///     Angles, rad.
-    ///
-    /// Examples
-    /// --------
-    /// >>> rod = bp.Tree("gravity = 10, rod: rod(mass = 1, length = 1)")
-    /// >>> rod.equilibrium([3.0]).round(6)
-    /// array([3.141593])
-    #[pyo3(signature = (theta = None))]
-    fn equilibrium<'py>(&self, py: Python<'py>, theta: Option<Numbers<'py>>) -> PyResult<Row<'py>> {
-        let (tree, theta) = (self.tree().clone(), self.angles(theta)?);
-        need("stiffness of all links", bytes(&[theta.len(); 2], MATRICES))?;
-        let found = on_own_thread(py, move || tree.equilibrium(&theta))?;
-        let found = found.map_err(|error| PyValueError::new_err(error.to_string()))?;
-        Ok(found.into_pyarray(py))
     }
 
     /// Returns positions of a point of each link.
@@ -377,8 +347,8 @@ impl Tree {
     fn points<'py>(
         &self,
         py: Python<'py>,
-        theta: Numbers<'py>,
-        point: &str,
+        #[pyo3(from_py_with = named::theta)] theta: Numbers<'py>,
+        #[pyo3(from_py_with = named::point)] point: &str,
     ) -> PyResult<Bound<'py, PyAny>> {
         let point = match point {
             "pivot" => LinkPoint::Pivot,

@@ -1,14 +1,14 @@
-//! Memory that is asked for before it is filled.
+//! Checks of available memory before large arrays are allocated.
 
 use std::fs;
 
 use pyo3::exceptions::PyMemoryError;
 use pyo3::prelude::*;
 
-/// Bytes below which nobody asks how much is free.
+/// Number of bytes below which the available memory is not checked.
 const SMALL: usize = 64 << 20;
 
-/// Bytes that the machine can still give, where it tells.
+/// Returns how many bytes of memory are available, if the machine reports it.
 fn free() -> Option<usize> {
     let number = |text: &str| text.split_whitespace().next()?.parse::<usize>().ok();
     let meminfo = fs::read_to_string("/proc/meminfo").ok()?;
@@ -23,7 +23,7 @@ fn free() -> Option<usize> {
     Some(group.map_or(machine, |group| group.min(machine)))
 }
 
-/// Passes a number of bytes that are there.
+/// Checks that a number of bytes of memory is available.
 ///
 /// # Errors
 /// MemoryError.
@@ -48,17 +48,17 @@ pub(crate) fn need(what: &str, bytes: Option<usize>) -> PyResult<()> {
     Ok(())
 }
 
-/// Bytes of so many numbers along each axis, `times` times.
+/// Returns the number of bytes of an array of this shape, multiplied by `times`.
 pub(crate) fn bytes(shape: &[usize], times: usize) -> Option<usize> {
     let sizes = shape.iter().copied().chain([times, size_of::<f64>()]);
     sizes.into_iter().try_fold(1_usize, usize::checked_mul)
 }
 
-/// Room for an array of this shape.
+/// Allocates memory for an array of this shape.
 ///
 /// # Errors
 /// MemoryError.
-pub(crate) fn room(shape: &[usize]) -> PyResult<Vec<f64>> {
+pub(crate) fn allocate(shape: &[usize]) -> PyResult<Vec<f64>> {
     let what = format!("an array of shape {}", shown(shape));
     need(&what, bytes(shape, 1))?;
     let mut values = Vec::new();
@@ -69,7 +69,7 @@ pub(crate) fn room(shape: &[usize]) -> PyResult<Vec<f64>> {
     Ok(values)
 }
 
-/// A shape as Python writes it.
+/// Returns a shape as Python writes it, as in `(3, 4)`.
 pub(crate) fn shown(shape: &[usize]) -> String {
     match shape {
         [one] => format!("({one},)"),

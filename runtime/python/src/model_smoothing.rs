@@ -8,9 +8,9 @@ use branched_pendulum_measure::{ModelSmoother, SmoothingError};
 use crate::estimates::Estimate;
 use crate::measured_model::MeasuredModel;
 
-/// Smooths measured angles by the equations of motion of a model, and by friction in single pivots
-/// that they lack where this is looked for, beginning from states near the true ones, one after
-/// the other.
+/// Smooths measured angles by the equations of motion of a model. On request it also estimates
+/// friction in each pivot that the equations lack. `guess` contains states near the true ones, one
+/// after the other.
 pub(crate) fn smoothed_by_equations<M: MeasuredModel>(
     model: &M,
     noise: Option<f64>,

@@ -1,4 +1,4 @@
-//! Motions of pendulums of any kind, without Python.
+//! Motions of pendulums of any kind, as Rust data.
 
 use std::ops::ControlFlow;
 
@@ -7,8 +7,8 @@ use branched_pendulum::analysis::variational::{
 };
 use branched_pendulum::ensemble::{Ensemble, Samples};
 use branched_pendulum::integrate::{
-    AnyIntegrator, Dop853, Event, IntegrationError, Integrator, Occurrence, Options, RunError,
-    Solution,
+    AnyIntegrator, Dop853, Event, Horizon, IntegrationError, Integrator, Method, Occurrence,
+    Options, RunError, Solution,
 };
 use branched_pendulum::interruption;
 use branched_pendulum::system::{AbsoluteAngles, Ode, State};
@@ -20,7 +20,7 @@ use crate::kept::{End, KeepError, Kept, OutputTimes};
 use crate::measured_model::MeasuredModel;
 use crate::model_smoothing::smoothed_by_equations;
 
-/// Deviations whose exponents are asked for.
+/// Kind of deviations whose Lyapunov exponents are computed.
 pub(crate) enum Deviations {
     All,
     /// Equal in all copies.
@@ -29,7 +29,7 @@ pub(crate) enum Deviations {
     Transverse(Copies),
 }
 
-/// The motions of a model, whatever its type.
+/// Interface to the motions of a model of any type.
 pub(crate) trait Motions: Send + Sync {
     fn names(&self) -> Vec<String>;
 
@@ -39,7 +39,7 @@ pub(crate) trait Motions: Send + Sync {
 
     fn energy(&self, state: &[f64]) -> f64;
 
-    /// Follows a motion and keeps what is wanted of it.
+    /// Integrates a motion and keeps the requested states.
     fn follow(
         &self,
         method: &AnyIntegrator<f64>,
@@ -47,6 +47,19 @@ pub(crate) trait Motions: Send + Sync {
         wanted: OutputTimes<'_>,
         kept: &mut Kept,
     ) -> End;
+
+    /// Compares the kept states with a run by another method, and returns the first time at which
+    /// angles differ by more than `precision` (rad).
+    fn differs_from(
+        &self,
+        finer: &AnyIntegrator<f64>,
+        start: &State<f64>,
+        kept: &Kept,
+        precision: f64,
+    ) -> Result<Option<f64>, IntegrationError<f64>>;
+
+    /// Returns the method that is usually the fastest for one motion at a tolerance.
+    fn fastest_method(&self, tolerance: f64) -> Method;
 
     fn events(
         &self,
@@ -57,8 +70,8 @@ pub(crate) trait Motions: Send + Sync {
         visit: &mut dyn FnMut(Occurrence<'_, f64>) -> ControlFlow<()>,
     ) -> Result<Solution<f64>, IntegrationError<f64>>;
 
-    /// Samples of many motions, several in the lanes of a register on each thread; `None` for
-    /// methods that do not go in lanes.
+    /// Samples many motions, several at a time in the lanes of a vector register on each thread;
+    /// `None` for methods that cannot run in lanes.
     fn ensemble(
         &self,
         method: &AnyIntegrator<f64>,
@@ -67,11 +80,11 @@ pub(crate) trait Motions: Send + Sync {
         times: &[f64],
     ) -> Option<Vec<Samples<f64>>>;
 
-    /// Samples of motions of models that differ in their parameters, given by name for each
-    /// start, likewise.
+    /// Samples motions in lanes, for models that differ in their parameters; these are given by
+    /// name, with one value per start.
     ///
     /// # Errors
-    /// Why there is no such model.
+    /// The reason why the values are invalid.
     fn ensemble_of_models(
         &self,
         method: &AnyIntegrator<f64>,
@@ -89,14 +102,15 @@ pub(crate) trait Motions: Send + Sync {
         start: &State<f64>,
     ) -> Result<LyapunovSpectrum, LyapunovError>;
 
-    /// Links of each set with all that hangs from them; none where they are no copies that are
-    /// in phase at all starts.
+    /// Returns the given sets of links, with the links below them, as copies; `None` if they are
+    /// not copies that are in phase at all starts.
     fn copies(&self, alike: &[&[usize]], starts: &[State<f64>]) -> Option<Copies>;
 
-    /// Growth of a difference between copies up to some horizons, at a tolerance.
+    /// Prepares the computation of the growth of a difference between copies, up to the given
+    /// horizons (s), with a tolerance.
     ///
     /// # Errors
-    /// Links that are no copies.
+    /// An error if the links are not copies of each other.
     fn differences(
         &self,
         copies: &Copies,
@@ -106,8 +120,8 @@ pub(crate) trait Motions: Send + Sync {
 
     fn smoothed_coordinates(&self) -> Coordinates;
 
-    /// Smooths measured angles by the equations of motion, and by friction that they lack
-    /// where this is looked for, beginning from states near the true ones.
+    /// Smooths measured angles by the equations of motion, and on request estimates friction that
+    /// is missing in the equations. `guess` contains states near the true ones.
     fn smooth(
         &self,
         noise: Option<f64>,
@@ -146,13 +160,12 @@ impl<M: MeasuredModel> Motions for AbsoluteAngles<M> {
         kept: &mut Kept,
     ) -> End {
         let system = &M::series(self);
-        if let (OutputTimes::At(times), None) = (wanted, &kept.trajectory) {
+        if let (OutputTimes::At { times, .. }, None) = (wanted, &kept.trajectory) {
             let run = method.try_sample(system, start, times, |time, state| kept.push(time, state));
             return Ok(run.map_err(Box::new)?.report);
         }
         let end = match wanted {
-            OutputTimes::At(times) => times.last().copied().unwrap_or(start.time),
-            OutputTimes::AllSteps(end) => end,
+            OutputTimes::At { end, .. } | OutputTimes::AllSteps(end) => end,
         };
         if let OutputTimes::AllSteps(_) = wanted {
             // Of one number there is room.
@@ -167,7 +180,7 @@ impl<M: MeasuredModel> Motions for AbsoluteAngles<M> {
             }
             Ok(ControlFlow::Continue(()))
         });
-        if let OutputTimes::At(times) = wanted {
+        if let OutputTimes::At { times, .. } = wanted {
             let sampled = kept.sample(times, run.is_ok());
             let report = run.map_err(Box::new)?.report;
             sampled.map_err(|error| RunError::Observer {
@@ -178,6 +191,25 @@ impl<M: MeasuredModel> Motions for AbsoluteAngles<M> {
             return Ok(report);
         }
         Ok(run.map_err(Box::new)?.report)
+    }
+
+    fn differs_from(
+        &self,
+        finer: &AnyIntegrator<f64>,
+        start: &State<f64>,
+        kept: &Kept,
+        precision: f64,
+    ) -> Result<Option<f64>, IntegrationError<f64>> {
+        let links = start.values.len() / 2;
+        let states = kept.states.chunks_exact(start.values.len().max(1));
+        let angles = states.map(|state| &state[..links]);
+        let system = &M::series(self);
+        let found = Horizon::find(finer, system, start, &kept.times, angles, &[precision])?;
+        Ok(found.exceeded.first().copied().flatten())
+    }
+
+    fn fastest_method(&self, tolerance: f64) -> Method {
+        Method::for_model(&M::series(self), tolerance)
     }
 
     fn events(
@@ -207,7 +239,7 @@ impl<M: MeasuredModel> Motions for AbsoluteAngles<M> {
             AnyIntegrator::Taylor(method) => {
                 return M::series_ensemble(method, self, ensemble, starts, times);
             }
-            _ => return None,
+            AnyIntegrator::Rk4(_) | AnyIntegrator::Gauss(_) => return None,
         })
     }
 
@@ -232,7 +264,9 @@ impl<M: MeasuredModel> Motions for AbsoluteAngles<M> {
             AnyIntegrator::Dop853(own) => ensemble.sample_models_in_lanes(own, &cases, times),
             AnyIntegrator::Dopri5(own) => ensemble.sample_models_in_lanes(own, &cases, times),
             AnyIntegrator::Verner98(own) => ensemble.sample_models_in_lanes(own, &cases, times),
-            _ => return Ok(None),
+            AnyIntegrator::Rk4(_) | AnyIntegrator::Taylor(_) | AnyIntegrator::Gauss(_) => {
+                return Ok(None);
+            }
         }))
     }
 

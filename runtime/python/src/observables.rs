@@ -1,8 +1,9 @@
-//! Quantities that a description defines, and their rates.
+//! Observables: quantities that a description defines, and their rates.
 
 use branched_pendulum::system::Model;
 use pyo3::prelude::*;
 
+use crate::arguments::named;
 use crate::arrays::{Numbers, by_state};
 use crate::sectors::given;
 use crate::tree::{Tree, wrong};
@@ -38,8 +39,8 @@ impl Tree {
     fn observable<'py>(
         &self,
         py: Python<'py>,
-        name: &str,
-        y: Numbers<'py>,
+        #[pyo3(from_py_with = named::name)] name: &str,
+        #[pyo3(from_py_with = named::y)] y: Numbers<'py>,
     ) -> PyResult<Bound<'py, PyAny>> {
         let observable = self.tree().observable(name);
         let observable = observable.map_err(|error| wrong(py, error))?;
@@ -48,8 +49,8 @@ impl Tree {
         })
     }
 
-    /// Returns the rate of an observable along the motion, and the part of it that is due to
-    /// friction and drag.
+    /// Returns the rate of change of an observable along the motion, and the part of it that
+    /// friction and drag cause.
     ///
     /// Parameters
     /// ----------
@@ -75,9 +76,9 @@ impl Tree {
     fn observable_rate<'py>(
         &self,
         py: Python<'py>,
-        name: &str,
-        y: Numbers<'py>,
-        t: f64,
+        #[pyo3(from_py_with = named::name)] name: &str,
+        #[pyo3(from_py_with = named::y)] y: Numbers<'py>,
+        #[pyo3(from_py_with = named::t)] t: f64,
     ) -> PyResult<Bound<'py, PyAny>> {
         let observable = self.tree().observable(name);
         let observable = observable.map_err(|error| wrong(py, error))?;

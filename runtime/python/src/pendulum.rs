@@ -1,34 +1,35 @@
-//! The class `Pendulum`: what trees and compiled models have in common.
+//! The class `Pendulum`: methods that trees and compiled models share.
 
-use std::collections::BTreeMap;
 use std::num::NonZeroUsize;
 use std::sync::Arc;
 
 use branched_pendulum::ensemble::Ensemble;
+use branched_pendulum::integrate::Method;
 use branched_pendulum::system::State;
 use numpy::{IntoPyArray, PyArray3, PyArrayMethods};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
+use crate::arguments::{Argument, Entries, named};
 use crate::arrays::{Numbers, ONE_EACH, Times, Together, by_state, whole};
 use crate::failures::Failures;
 use crate::interrupts::detached;
-use crate::memory::room;
+use crate::memory::{allocate, shown};
 use crate::motions::Motions;
 use crate::stepping::Stepping;
 
-/// A pendulum whose motions can be followed: a tree that a text describes, or a compiled model.
+/// A pendulum whose motions can be computed: a tree described by a text, or a compiled model.
 ///
 /// SI units; angles are absolute, in radians from the downward vertical. A state is the angles
-/// (rad) followed by the angular velocities (rad/s), both in the order of `names`: 2 n numbers
-/// of n links. Functions of a state take arrays of states of any shape, along whose last axis
-/// a state's numbers stand.
+/// (rad) followed by the angular velocities (rad/s), both in the order of `names`: 2 n numbers for
+/// n links. Functions of a state accept arrays of states of any shape; the last axis contains the
+/// numbers of one state.
 #[pyclass(frozen, subclass, module = "branched_pendulum")]
 pub(crate) struct Pendulum {
     pub(crate) motions: Arc<dyn Motions>,
 }
 
-/// An ensemble on all cores, or on as many threads as are given.
+/// Creates an ensemble that uses all cores, or the given number of threads.
 pub(crate) fn ensemble(threads: Option<i128>) -> PyResult<Ensemble<'static>> {
     let Some(threads) = threads else {
         return Ok(Ensemble::new());
@@ -37,10 +38,11 @@ pub(crate) fn ensemble(threads: Option<i128>) -> PyResult<Ensemble<'static>> {
     Ok(Ensemble::new().threads(threads.unwrap_or(NonZeroUsize::MIN)))
 }
 
-/// Numbers of samples that are kept between two looks at the memory.
+/// Number of sampled values that are stored between two checks of the available memory.
 const BLOCK: usize = 4 << 20;
 
-/// Starts that go together at least, so that threads do not wait for each other.
+/// Smallest number of starts that are computed together, so that threads do not wait for each
+/// other.
 const LEAST_STARTS: usize = 512;
 
 #[pymethods]
@@ -55,19 +57,21 @@ impl Pendulum {
         self.motions.names().len()
     }
 
-    /// Returns the rates of states, as `scipy.integrate.solve_ivp` asks for them.
+    /// Returns the rates of change of states, as `scipy.integrate.solve_ivp` needs them.
     ///
     /// Parameters
     /// ----------
     /// t : float or array
     ///     Time, s: of account where a drive acts.
     /// y : array, shape (..., 2 n)
-    ///     States. Those of `solve_ivp(..., vectorized=True)` have their numbers along the
-    ///     first axis: `lambda t, y: tree.rhs(t, y.T).T`.
+    ///     States.
+    /// axis : int
+    ///     Axis of `y` along which the numbers of one state stand: the last by default, 0 for
+    ///     arrays of shape (2 n, k) as `solve_ivp(..., vectorized=True)` passes them.
     ///
     /// Returns
     /// -------
-    /// array, shape (..., 2 n)
+    /// array of the shape of `y`
     ///     Angular velocities (rad/s), then angular accelerations (rad/s²).
     ///
     /// Examples
@@ -76,23 +80,34 @@ impl Pendulum {
     /// >>> rod.rhs(0.0, [[np.pi / 2, 0.0], [0.0, 2.0]]).round(3) + 0.0
     /// array([[  0.   , -14.715],
     ///        [  2.   ,   0.   ]])
+    ///
+    /// SciPy's implicit methods, which evaluate several states at once:
+    ///
+    /// >>> from functools import partial
+    /// >>> from scipy.integrate import solve_ivp
+    /// >>> rates = partial(rod.rhs, axis=0)
+    /// >>> solve_ivp(rates, (0, 1), [0.1, 0.0], "Radau", vectorized=True).success
+    /// True
+    #[pyo3(signature = (t, y, axis = -1))]
     fn rhs<'py>(
         &self,
         py: Python<'py>,
-        t: Numbers<'py>,
-        y: Numbers<'py>,
+        #[pyo3(from_py_with = named::t)] t: Numbers<'py>,
+        #[pyo3(from_py_with = named::y)] y: Numbers<'py>,
+        #[pyo3(from_py_with = named::axis)] axis: i128,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let dimension = self.motions.dimension();
-        let (times, single) = (t.to_vec(), t.shape().is_empty());
-        let motions = &*self.motions;
-        if let ([time], true) = (&times[..], single) {
-            let together = Together::of(&[("y", &y, dimension)])?;
-            let rates = |given: &[&[f64]], out: &mut [f64]| motions.rates(*time, given[0], out);
-            return together.each(py, &[dimension], rates);
+        if axis == -1 {
+            return self.rates(py, &t, &y);
         }
-        let together = Together::of(&[("t", &t, ONE_EACH), ("y", &y, dimension)])?;
-        let rates = |given: &[&[f64]], out: &mut [f64]| motions.rates(given[0][0], given[1], out);
-        together.each(py, &[dimension], rates)
+        let axes = y.shape().len() as i128;
+        if !(-axes..axes).contains(&axis) {
+            let text = format!("axis must be one of the {axes} axes of y, got {axis}");
+            return Err(PyValueError::new_err(text));
+        }
+        let turn = py.import("numpy")?.getattr("moveaxis")?;
+        let states = turn.call1((y.array(), axis, -1))?;
+        let rates = self.rates(py, &t, &Numbers::of("y", &states)?)?;
+        turn.call1((rates, -1, axis))
     }
 
     /// Returns the energy K + U (J) of states.
@@ -112,12 +127,16 @@ impl Pendulum {
     /// >>> rod = bp.Tree("gravity = 9.81, rod: rod(mass = 1, length = 1)")
     /// >>> float(rod.energy([0.0, 3.0]) - rod.energy([0.0, 0.0]))
     /// 1.5
-    fn energy<'py>(&self, py: Python<'py>, y: Numbers<'py>) -> PyResult<Bound<'py, PyAny>> {
+    fn energy<'py>(
+        &self,
+        py: Python<'py>,
+        #[pyo3(from_py_with = named::y)] y: Numbers<'py>,
+    ) -> PyResult<Bound<'py, PyAny>> {
         let motions = &*self.motions;
         by_state(py, &y, motions.dimension(), |state| [motions.energy(state)])
     }
 
-    /// Follows the motion from a state.
+    /// Integrates the motion from a state.
     ///
     /// Parameters
     /// ----------
@@ -129,6 +148,8 @@ impl Pendulum {
     /// method : str
     ///     "dop853", "dopri5", "verner98" and, of a `Tree`, "taylor" choose their steps;
     ///     "rk4", "gauss2" to "gauss8" and "animation" go by steps of the length `step`.
+    ///     "auto" takes the one of the first four that is usually the fastest for this model and
+    ///     tolerance; `report.method` names it.
     /// rtol, atol : float; atol also an array of shape (2 n,)
     ///     Tolerances of one step; `atol` (rad, rad/s) is by default a thousandth of `rtol`.
     /// step : float
@@ -139,11 +160,15 @@ impl Pendulum {
     ///     Functions `f(t, y)` whose zeros are found, as SciPy's are: with `f.terminal = True`
     ///     the motion ends at the first, with `f.terminal = k` at the k-th; `f.direction` above
     ///     or below zero counts rising or falling ones alone. All events at the time of the
-    ///     last one are told, so that a motion from there tells none again and misses none.
+    ///     last one are reported, so that a motion from there repeats none and misses none.
     /// dense_output : bool
     ///     True to have the state at any time: `solution(t)`.
     /// max_steps : int
     ///     Steps after which the motion fails.
+    /// precision : float
+    ///     Error of angles (rad) up to which the motion is compared with a second run, by a finer
+    ///     tolerance or step and from a start that differs by rounding: `report.differs_from` is
+    ///     the first time at which they differ by more. Chaos makes later states arbitrary.
     ///
     /// Returns
     /// -------
@@ -169,25 +194,29 @@ impl Pendulum {
     /// ...     return y[0]
     /// >>> rod.integrate([0.1, 0.0], (0, 2), events=bottom).t_events[0].round(3)
     /// array([0.41 , 1.229])
-    #[pyo3(signature = (y0, t, method = "dop853", rtol = 1e-9, atol = None, step = None, events = None, dense_output = false, max_steps = 1_000_000, *, first_step = None, max_step = None))]
+    /// >>> print(rod.integrate([0.1, 0.0], (0, 2), precision=1e-6).report.differs_from)
+    /// None
+    #[pyo3(signature = (y0, t, method = "auto", rtol = 1e-9, atol = None, step = None, events = None, dense_output = false, max_steps = 1_000_000, *, first_step = None, max_step = None, precision = None))]
     #[allow(clippy::too_many_arguments)]
     fn integrate<'py>(
         &self,
         py: Python<'py>,
-        y0: Numbers<'py>,
-        t: Times<'py>,
-        method: &str,
-        rtol: f64,
-        atol: Option<Numbers<'py>>,
-        step: Option<f64>,
+        #[pyo3(from_py_with = named::y0)] y0: Numbers<'py>,
+        #[pyo3(from_py_with = named::t)] t: Times<'py>,
+        #[pyo3(from_py_with = named::method)] method: &str,
+        #[pyo3(from_py_with = named::rtol)] rtol: f64,
+        #[pyo3(from_py_with = named::atol)] atol: Option<Numbers<'py>>,
+        #[pyo3(from_py_with = named::step)] step: Option<f64>,
         events: Option<Bound<'py, PyAny>>,
-        dense_output: bool,
-        max_steps: i128,
-        first_step: Option<f64>,
-        max_step: Option<f64>,
+        #[pyo3(from_py_with = named::dense_output)] dense_output: bool,
+        #[pyo3(from_py_with = named::max_steps)] max_steps: i128,
+        #[pyo3(from_py_with = named::first_step)] first_step: Option<f64>,
+        #[pyo3(from_py_with = named::max_step)] max_step: Option<f64>,
+        #[pyo3(from_py_with = named::precision)] precision: Option<f64>,
     ) -> PyResult<Bound<'py, PyAny>> {
         let stepping = Stepping {
             method,
+            automatic: self.motions.fastest_method(rtol),
             rtol,
             atol: atol.as_ref(),
             step,
@@ -195,10 +224,11 @@ impl Pendulum {
             max_step,
             max_steps,
         };
-        self.follow(py, &y0, &t, &stepping, events.as_ref(), dense_output)
+        let events = events.as_ref();
+        self.follow(py, &y0, &t, &stepping, events, dense_output, precision)
     }
 
-    /// Follows many motions, in vector registers on all cores.
+    /// Integrates many motions, in vector registers on all cores.
     ///
     /// Parameters
     /// ----------
@@ -207,7 +237,8 @@ impl Pendulum {
     /// t : array, shape (m,)
     ///     Times, s.
     /// method : str
-    ///     "dop853", "dopri5", "verner98" and, of a `Tree`, "taylor".
+    ///     "dop853", "dopri5", "verner98" and, of a `Tree`, "taylor"; "auto" takes "dop853" for
+    ///     an `rtol` of 1e-4 and above, otherwise "verner98".
     /// rtol, atol, first_step, max_step, max_steps
     ///     As those of `integrate`.
     /// threads : int
@@ -221,7 +252,7 @@ impl Pendulum {
     ///     States, NaN from where a motion could not be followed: the warning `FailedMotions`
     ///     has the reason of each in `reasons`, by the index of its start. To have them,
     ///     `warnings.simplefilter("error", FailedMotions)` makes an exception of it, and
-    ///     `warnings.catch_warnings(record=True)` keeps it beside the states.
+    ///     `warnings.catch_warnings(record=True)` keeps it with the states.
     ///
     /// Examples
     /// --------
@@ -231,21 +262,21 @@ impl Pendulum {
     /// >>> rod = bp.Tree("gravity = 9.81, rod: rod(mass = 1, length = l)", l=1)
     /// >>> rod.ensemble([[0.1, 0.0]] * 2, [0.0, 1.0], parameters={"l": [1, 2]})[:, -1, 0].round(4)
     /// array([-0.077 , -0.0909])
-    #[pyo3(signature = (starts, t, method = "dop853", rtol = 1e-9, atol = None, threads = None, max_steps = 1_000_000, *, first_step = None, max_step = None, parameters = None))]
+    #[pyo3(signature = (starts, t, method = "auto", rtol = 1e-9, atol = None, threads = None, max_steps = 1_000_000, *, first_step = None, max_step = None, parameters = None))]
     #[allow(clippy::too_many_arguments)]
     fn ensemble<'py>(
         &self,
         py: Python<'py>,
-        starts: Numbers<'py>,
-        t: Numbers<'py>,
-        method: &str,
-        rtol: f64,
-        atol: Option<Numbers<'py>>,
-        threads: Option<i128>,
-        max_steps: i128,
-        first_step: Option<f64>,
-        max_step: Option<f64>,
-        parameters: Option<BTreeMap<String, Numbers<'py>>>,
+        #[pyo3(from_py_with = named::starts)] starts: Numbers<'py>,
+        #[pyo3(from_py_with = named::t)] t: Numbers<'py>,
+        #[pyo3(from_py_with = named::method)] method: &str,
+        #[pyo3(from_py_with = named::rtol)] rtol: f64,
+        #[pyo3(from_py_with = named::atol)] atol: Option<Numbers<'py>>,
+        #[pyo3(from_py_with = named::threads)] threads: Option<i128>,
+        #[pyo3(from_py_with = named::max_steps)] max_steps: i128,
+        #[pyo3(from_py_with = named::first_step)] first_step: Option<f64>,
+        #[pyo3(from_py_with = named::max_step)] max_step: Option<f64>,
+        #[pyo3(from_py_with = named::parameters)] parameters: Option<Entries<Numbers<'py>>>,
     ) -> PyResult<Bound<'py, PyArray3<f64>>> {
         let dimension = self.motions.dimension();
         let refused = || {
@@ -256,6 +287,7 @@ impl Pendulum {
         };
         let stepping = Stepping {
             method,
+            automatic: Method::for_lanes(rtol),
             rtol,
             atol: atol.as_ref(),
             // Methods with steps of one length are refused as such.
@@ -275,7 +307,7 @@ impl Pendulum {
         let starts = self.starts(&starts, first)?;
         let ensemble = ensemble(threads)?;
         let parameters: Option<Vec<(String, Vec<f64>)>> = parameters
-            .map(|all| {
+            .map(|Entries(all)| {
                 let values = all.into_iter().map(|(name, values)| {
                     let values = values.row(&format!("parameters[{name:?}]"), starts.len())?;
                     Ok((name, values))
@@ -284,7 +316,7 @@ impl Pendulum {
             })
             .transpose()?;
         let shape = [starts.len(), times.len(), dimension];
-        let mut values = room(&shape)?;
+        let mut values = allocate(&shape)?;
         let length = dimension * times.len();
         let mut failures = Failures::default();
         let block = (BLOCK / length.max(1)).max(LEAST_STARTS);
@@ -318,7 +350,37 @@ impl Pendulum {
 }
 
 impl Pendulum {
-    /// States at a time, from the rows of an array.
+    /// Returns the rates of change of states whose numbers are along the last axis.
+    fn rates<'py>(
+        &self,
+        py: Python<'py>,
+        t: &Numbers<'py>,
+        y: &Numbers<'py>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let dimension = self.motions.dimension();
+        if let [first, .., last] = *y.shape()
+            && first == dimension
+            && last != dimension
+        {
+            return Err(PyValueError::new_err(format!(
+                "y must have {dimension} numbers along its last axis, got {}; help: pass axis=0 if \
+                 they are along its first, as in solve_ivp(..., vectorized=True)",
+                shown(y.shape())
+            )));
+        }
+        let (times, single) = (t.to_vec(), t.shape().is_empty());
+        let motions = &*self.motions;
+        if let ([time], true) = (&times[..], single) {
+            let together = Together::of(&[("y", y, dimension)])?;
+            let rates = |given: &[&[f64]], out: &mut [f64]| motions.rates(*time, given[0], out);
+            return together.each(py, &[dimension], rates);
+        }
+        let together = Together::of(&[("t", t, ONE_EACH), ("y", y, dimension)])?;
+        let rates = |given: &[&[f64]], out: &mut [f64]| motions.rates(given[0][0], given[1], out);
+        together.each(py, &[dimension], rates)
+    }
+
+    /// Converts the rows of an array to states, all at the given time.
     pub(crate) fn starts(&self, starts: &Numbers<'_>, time: f64) -> PyResult<Vec<State<f64>>> {
         let rows = starts.rows("starts", self.motions.dimension())?;
         Ok(rows.into_iter().map(|row| State::new(time, row)).collect())

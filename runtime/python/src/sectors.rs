@@ -1,20 +1,21 @@
-//! What copies do in phase and against each other: energies of sectors and the transfers W
-//! between them.
+//! Sectors (copies in phase, and differences between copies): energies, and transfers W between
+//! them.
 
 use branched_pendulum::Transfer;
 use branched_pendulum::sectors::Sectors;
 use branched_pendulum::system::Workspace;
 use branched_pendulum::transfer::{
-    EnergyDefinition, Given, NonConservative, Order, SectorBudget, SymmetricTree,
+    EnergyDefinition, NonConservative, Order, SectorBudget, StateInput, SymmetricTree,
 };
 use pyo3::exceptions::{PyKeyError, PyValueError};
 use pyo3::prelude::*;
 
+use crate::arguments::named;
 use crate::arrays::{Argument, Numbers, ONE_EACH, Together};
 use crate::results;
 use crate::tree::Tree;
 
-/// A form of W by its name.
+/// A form of the energy transfer W, selected by name.
 #[derive(Clone, Copy)]
 enum Form {
     Exact,
@@ -51,13 +52,13 @@ impl Form {
     }
 }
 
-/// A state as it is given: angles, then angular velocities.
-pub(crate) fn given(state: &[f64]) -> Given<'_, f64> {
+/// Converts a state (angles, then angular velocities) to the form that evaluations take.
+pub(crate) fn given(state: &[f64]) -> StateInput<'_, f64> {
     let (theta, omega) = state.split_at(state.len() / 2);
-    Given::Absolute { theta, omega }
+    StateInput::Absolute { theta, omega }
 }
 
-/// Transfers into all sectors at a state.
+/// Function that computes the energy transfers into all sectors at a state.
 type Transfers<'a> = Box<dyn FnMut(&[f64], &mut [Transfer<f64>]) + Send + 'a>;
 
 fn through<const N: usize>(
@@ -98,7 +99,8 @@ fn transfers(tree: &SymmetricTree<f64>, form: Form) -> Transfers<'_> {
 }
 
 impl Tree {
-    /// The index of a sector by its name, and how many there are.
+    /// Returns the index of a sector, given its name (`None` if all sectors are requested), after
+    /// checking that it exists.
     fn sector(&self, tree: &SymmetricTree<f64>, name: Option<&str>) -> PyResult<Option<usize>> {
         let Some(name) = name else { return Ok(None) };
         tree.sector(name).map(Some).ok_or_else(|| {
@@ -108,7 +110,7 @@ impl Tree {
         })
     }
 
-    /// Results for each state and sector, or of one sector.
+    /// Computes results for each state, for all sectors or for a single one.
     fn by_sector<'py>(
         &self,
         py: Python<'py>,
@@ -138,14 +140,14 @@ impl Tree {
 
 #[pymethods]
 impl Tree {
-    /// Names of the sectors: that of the means first, then the differences between copies.
+    /// Names of the sectors: first the sector of the means, then the differences between copies.
     #[getter]
     fn sectors(&self, py: Python<'_>) -> PyResult<Vec<String>> {
         let sectors = self.symmetric(py)?.sectors().iter();
         Ok(sectors.map(|sector| sector.name().to_owned()).collect())
     }
 
-    /// Returns energies of sectors by themselves: the paper's H_d of the antiphase mode.
+    /// Returns the energy of each sector by itself; for the antiphase mode it is the paper's H_d.
     ///
     /// Parameters
     /// ----------
@@ -170,8 +172,8 @@ impl Tree {
     fn sector_energies<'py>(
         &self,
         py: Python<'py>,
-        y: Numbers<'py>,
-        sector: Option<&str>,
+        #[pyo3(from_py_with = named::y)] y: Numbers<'py>,
+        #[pyo3(from_py_with = named::sector)] sector: Option<&str>,
     ) -> PyResult<Bound<'py, PyAny>> {
         let tree = self.symmetric(py)?;
         let (mut workspace, mut both) = (Workspace::new(), vec![[0.0; 2]; tree.sectors().len()]);
@@ -214,9 +216,9 @@ impl Tree {
     fn transfer<'py>(
         &self,
         py: Python<'py>,
-        y: Numbers<'py>,
-        form: &str,
-        into: Option<&str>,
+        #[pyo3(from_py_with = named::y)] y: Numbers<'py>,
+        #[pyo3(from_py_with = named::form)] form: &str,
+        #[pyo3(from_py_with = named::into)] into: Option<&str>,
     ) -> PyResult<Bound<'py, PyAny>> {
         let tree = self.symmetric(py)?;
         let mut of = transfers(tree, Form::of(form)?);
@@ -229,7 +231,7 @@ impl Tree {
         })
     }
 
-    /// Returns the parts W_K and W_P of these transfers.
+    /// Returns the parts W_K and W_P of the energy transfers into sectors.
     ///
     /// Parameters
     /// ----------
@@ -251,9 +253,9 @@ impl Tree {
     fn transfer_parts<'py>(
         &self,
         py: Python<'py>,
-        y: Numbers<'py>,
-        form: &str,
-        into: Option<&str>,
+        #[pyo3(from_py_with = named::y)] y: Numbers<'py>,
+        #[pyo3(from_py_with = named::form)] form: &str,
+        #[pyo3(from_py_with = named::into)] into: Option<&str>,
     ) -> PyResult<Bound<'py, PyAny>> {
         let tree = self.symmetric(py)?;
         let mut of = transfers(tree, Form::of(form)?);
@@ -266,7 +268,7 @@ impl Tree {
         })
     }
 
-    /// Returns energies of sectors, what other sectors give them and the powers of friction and
+    /// Returns energies of sectors, energy transfers from other sectors, and powers of friction and
     /// drive: dE/dt = transfer + power.
     ///
     /// Parameters
@@ -295,9 +297,9 @@ impl Tree {
     fn sector_budget<'py>(
         &self,
         py: Python<'py>,
-        y: Numbers<'py>,
-        t: Option<Numbers<'py>>,
-        definition: &str,
+        #[pyo3(from_py_with = named::y)] y: Numbers<'py>,
+        #[pyo3(from_py_with = named::t)] t: Option<Numbers<'py>>,
+        #[pyo3(from_py_with = named::definition)] definition: &str,
     ) -> PyResult<Bound<'py, PyAny>> {
         let definition = match definition {
             "canonical" => EnergyDefinition::Canonical,

@@ -1,8 +1,9 @@
-//! The functions that smooth measured angles.
+//! Functions that smooth measured angles.
 
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
+use crate::arguments::named;
 use crate::arrays::Numbers;
 use crate::estimates::{Coordinates, Smoother};
 use crate::interrupts::on_own_thread;
@@ -10,18 +11,19 @@ use crate::memory::{bytes, need};
 use crate::pendulum::Pendulum;
 use crate::smoothing::{SmoothedMotion, refused, rows};
 
-/// Numbers that are kept of a datum, about: by equations of motion, of each pair of data of a time.
+/// Approximate number of values that are stored per measured value (by equations of motion: per
+/// pair of values at one time), for the memory check.
 const NUMBERS_OF_A_DATUM: usize = 60;
 
-/// Passes data that a smoother has room for.
+/// Checks that memory suffices to smooth this many values.
 fn check_memory(data: &[usize]) -> PyResult<()> {
     need("the motion", bytes(data, NUMBERS_OF_A_DATUM))
 }
 
-/// Smooths any coordinates, each by itself.
+/// Smooths time series of any coordinates, each separately.
 ///
-/// Angles of identical branches are better smoothed as means and differences: `Pendulum.smooth`
-/// does that.
+/// For angles of identical branches it is better to smooth means and differences, as
+/// `Pendulum.smooth` does.
 ///
 /// Parameters
 /// ----------
@@ -51,10 +53,10 @@ fn check_memory(data: &[usize]) -> PyResult<()> {
 #[pyo3(signature = (t, x, method = "kinematic", noise = None))]
 pub(crate) fn smooth(
     py: Python<'_>,
-    t: Numbers<'_>,
-    x: Numbers<'_>,
-    method: &str,
-    noise: Option<f64>,
+    #[pyo3(from_py_with = named::t)] t: Numbers<'_>,
+    #[pyo3(from_py_with = named::x)] x: Numbers<'_>,
+    #[pyo3(from_py_with = named::method)] method: &str,
+    #[pyo3(from_py_with = named::noise)] noise: Option<f64>,
 ) -> PyResult<SmoothedMotion> {
     let (times, data) = (t.list("t")?, rows("x", &x, t.shape())?);
     let smoother = Smoother::of(method, noise).ok_or_else(|| {
@@ -76,8 +78,8 @@ pub(crate) fn smooth(
 
 #[pymethods]
 impl Pendulum {
-    /// Returns the motion behind measured angles. A compiled model is smoothed in its symmetric
-    /// coordinates.
+    /// Estimates the motion from noisy measured angles. For a compiled model, its symmetric
+    /// coordinates are smoothed.
     ///
     /// Parameters
     /// ----------
@@ -111,11 +113,11 @@ impl Pendulum {
     #[pyo3(signature = (t, theta, method = "kinematic", noise = None, friction = false))]
     fn smooth<'py>(
         slf: &Bound<'py, Self>,
-        t: Numbers<'py>,
-        theta: Numbers<'py>,
-        method: &str,
-        noise: Option<f64>,
-        friction: bool,
+        #[pyo3(from_py_with = named::t)] t: Numbers<'py>,
+        #[pyo3(from_py_with = named::theta)] theta: Numbers<'py>,
+        #[pyo3(from_py_with = named::method)] method: &str,
+        #[pyo3(from_py_with = named::noise)] noise: Option<f64>,
+        #[pyo3(from_py_with = named::friction)] friction: bool,
     ) -> PyResult<SmoothedMotion> {
         let (py, motions) = (slf.py(), slf.get().motions.clone());
         let (times, angles) = (t.list("t")?, rows("theta", &theta, t.shape())?);

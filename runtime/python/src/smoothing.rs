@@ -1,4 +1,4 @@
-//! Motions behind measured angles: the class `SmoothedMotion`.
+//! Motions estimated from measured angles: the class `SmoothedMotion`.
 
 use std::sync::Arc;
 
@@ -7,20 +7,21 @@ use branched_pendulum_measure::SmoothingError;
 use numpy::{
     IntoPyArray, PyArray1, PyArray2, PyArray3, PyArrayDyn, PyArrayMethods, PyUntypedArrayMethods,
 };
-use pyo3::exceptions::{PyTypeError, PyValueError};
+use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 use rand_distr::{Distribution, StandardNormal};
 use rand_xoshiro::Xoshiro256PlusPlus;
 use rand_xoshiro::rand_core::SeedableRng;
 
+use crate::arguments::{Argument, named};
 use crate::arrays::{Numbers, Table, frame, matrix, state_names, whole};
 use crate::estimates::{Draw, Estimate};
 use crate::interrupts::detached;
-use crate::memory::room;
+use crate::memory::allocate;
 use crate::memory::shown;
 
-/// Data of several columns, a row a time; NaN is missing.
+/// Converts an array with one row per time to data of several columns; NaN marks missing values.
 pub(crate) fn rows(
     name: &str,
     array: &Numbers<'_>,
@@ -47,46 +48,47 @@ pub(crate) fn refused(error: SmoothingError) -> PyErr {
     PyValueError::new_err(error.to_string())
 }
 
-/// A motion estimated from data at the times of the data, with standard deviations, and draws:
-/// motions that the data allow, as likely as they are. What follows from the motion has its
-/// error from draws: `estimate`.
+/// A motion estimated from data, at the times of the data, with standard deviations. Random draws
+/// are motions that agree with the data, in proportion to their probability; from these, `estimate`
+/// computes quantities that depend on the motion, and their errors.
 #[pyclass(frozen, module = "branched_pendulum.analysis")]
 pub(crate) struct SmoothedMotion {
     /// Times, s.
     #[pyo3(get)]
     t: Py<PyArray1<f64>>,
-    /// The likeliest states, a row for each time: angles (rad), or the coordinates that were
-    /// given, then their rates (1/s).
+    /// Most probable states, one row per time: angles (rad), or the given coordinates, then their
+    /// rates (1/s).
     #[pyo3(get)]
     y: Py<PyArray2<f64>>,
     /// Standard deviations of the states.
     #[pyo3(get)]
     y_error: Py<PyArray2<f64>>,
-    /// Accelerations (rad/s²), a row for each time; None of a motion by its equations.
+    /// Accelerations (rad/s²), one row per time; `None` for a motion estimated by equations of
+    /// motion.
     #[pyo3(get)]
     acceleration: Option<Py<PyArray2<f64>>>,
     /// Standard deviations of the accelerations.
     #[pyo3(get)]
     acceleration_error: Option<Py<PyArray2<f64>>>,
-    /// Standard deviation of the data of each coordinate that was smoothed, found from them.
+    /// Standard deviation of the data of each smoothed coordinate, estimated from the data.
     #[pyo3(get)]
     noise: Py<PyArray1<f64>>,
-    /// Correlation of what each datum differs by from what those before it foretell, in its
-    /// standard deviations, the largest of all coordinates: beyond some 3 the motion is not
-    /// what the smoother takes it for, and errors are larger than told. NaN of polynomials.
+    /// Correlation of the one-step prediction errors of the data, in units of its standard
+    /// deviation; the largest of all coordinates. Above about 3 the motion does not satisfy the
+    /// assumptions of the smoother, and errors are larger than stated. NaN for polynomials.
     #[pyo3(get)]
     whiteness: f64,
-    /// Friction (N m s) that the equations of motion lack, in the pivot of each link, 0 where
-    /// the data ask for none; empty unless it was looked for.
+    /// Friction (N m s) in the pivot of each link that the equations of motion lack; 0 if the data
+    /// do not require any; empty unless it was requested.
     #[pyo3(get)]
     frictions: Py<PyArray1<f64>>,
     names: Vec<String>,
     draw: Arc<Draw>,
-    /// The function that estimated the motion, and its arguments.
+    /// Function that estimated the motion, with its arguments.
     origin: Origin,
 }
 
-/// A function of Python and its arguments.
+/// A Python function and its arguments.
 pub(crate) type Origin = (Py<PyAny>, Py<PyTuple>);
 
 impl SmoothedMotion {
@@ -129,7 +131,7 @@ impl SmoothedMotion {
 
 #[pymethods]
 impl SmoothedMotion {
-    /// Returns motions drawn from those that the data allow.
+    /// Returns random motions drawn from the distribution of motions that agree with the data.
     ///
     /// Parameters
     /// ----------
@@ -152,13 +154,13 @@ impl SmoothedMotion {
     fn draws<'py>(
         &self,
         py: Python<'py>,
-        count: i128,
-        seed: i128,
+        #[pyo3(from_py_with = named::count)] count: i128,
+        #[pyo3(from_py_with = named::seed)] seed: i128,
     ) -> PyResult<Bound<'py, PyArray3<f64>>> {
         let (count, seed) = (whole("count", count, 0)?, whole("seed", seed, 0)?);
         let times = self.t.bind(py).len();
         let shape = [count, times, 2 * self.names.len()];
-        let mut values = room(&shape)?;
+        let mut values = allocate(&shape)?;
         let draw = &self.draw;
         detached(py, || {
             let mut normal = Self::normal(seed);
@@ -170,7 +172,8 @@ impl SmoothedMotion {
         values.into_pyarray(py).reshape(shape)
     }
 
-    /// Returns what follows from the motion, with its error, from motions drawn.
+    /// Returns the mean and the standard deviation of a function of the motion, computed from
+    /// random draws.
     ///
     /// Parameters
     /// ----------
@@ -196,8 +199,8 @@ impl SmoothedMotion {
         &self,
         py: Python<'py>,
         function: Bound<'py, PyAny>,
-        count: i128,
-        seed: i128,
+        #[pyo3(from_py_with = named::count)] count: i128,
+        #[pyo3(from_py_with = named::seed)] seed: i128,
     ) -> PyResult<(Table<'py>, Table<'py>)> {
         let count: usize = whole("count", count, 2)?;
         let mut normal = Self::normal(whole("seed", seed, 0)?);
@@ -206,10 +209,7 @@ impl SmoothedMotion {
             let states = detached(py, || (self.draw)(&mut normal))?;
             let states = matrix(py, states, 2 * self.names.len())?;
             let values = function.call1((states,))?;
-            let values = values.extract::<Numbers<'py>>().map_err(|error| {
-                let reason = error.value(py);
-                PyTypeError::new_err(format!("the value of function: {reason}"))
-            })?;
+            let values = Numbers::of("the value of function", &values)?;
             if number == 1 {
                 shape = values.shape().to_vec();
                 means = vec![0.0; shape.iter().product()];
@@ -237,13 +237,13 @@ impl SmoothedMotion {
         Ok((table(means)?, table(deviations)?))
     }
 
-    /// Returns the states as a `pandas.DataFrame`, a row for each time (s): columns
+    /// Returns the states as a `pandas.DataFrame`, with one row per time (s) and columns
     /// `theta_parent` (rad) to `omega_child_2` (rad/s).
     fn frame<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         frame(py, &self.t, &self.y, state_names(&self.names))
     }
 
-    /// Motions of the same data by the same function are equal.
+    /// Compares two motions; they are equal if they come from the same data and function.
     fn __eq__(&self, other: &Bound<'_, PyAny>) -> PyResult<bool> {
         let py = other.py();
         let Ok(other) = other.cast::<Self>() else {

@@ -1,4 +1,4 @@
-//! Spectra of series and their lines: the class `Lines`.
+//! Spectra of time series and their lines: the class `Lines`.
 
 use branched_pendulum_measure::{
     LineSearch, Lines as Found, SpectralLine, Spectrum, SpectrumError, SpectrumOptions, Window,
@@ -6,8 +6,9 @@ use branched_pendulum_measure::{
 use numpy::{IntoPyArray, PyArrayMethods};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
-use pyo3::types::{PyDict, PyTuple};
+use pyo3::types::PyTuple;
 
+use crate::arguments::{Entries, named};
 use crate::arrays::{Numbers, Row, Table, whole};
 use crate::interrupts::on_own_thread;
 
@@ -22,8 +23,8 @@ fn window(power: i128) -> PyResult<Window> {
     })
 }
 
-/// Returns the spectrum of a series: a sine of amplitude a whose frequency is among them has the
-/// amplitude a.
+/// Returns the amplitude spectrum of a series. A sine wave of amplitude a, at one of the
+/// frequencies, has the value a in the spectrum.
 ///
 /// Parameters
 /// ----------
@@ -52,11 +53,11 @@ fn window(power: i128) -> PyResult<Window> {
 #[pyo3(signature = (x, sample_rate, frequencies = None, window = 1, remove_mean = true))]
 pub(crate) fn spectrum<'py>(
     py: Python<'py>,
-    x: Numbers<'py>,
-    sample_rate: f64,
-    frequencies: Option<Numbers<'py>>,
-    window: i128,
-    remove_mean: bool,
+    #[pyo3(from_py_with = named::x)] x: Numbers<'py>,
+    #[pyo3(from_py_with = named::sample_rate)] sample_rate: f64,
+    #[pyo3(from_py_with = named::frequencies)] frequencies: Option<Numbers<'py>>,
+    #[pyo3(from_py_with = named::window)] window: i128,
+    #[pyo3(from_py_with = named::remove_mean)] remove_mean: bool,
 ) -> PyResult<(Row<'py>, Row<'py>)> {
     let samples = x.list("x")?;
     let frequencies = frequencies.map(|frequencies| frequencies.list("frequencies"));
@@ -76,12 +77,12 @@ pub(crate) fn spectrum<'py>(
     Ok((frequencies_hz.into_pyarray(py), amplitudes.into_pyarray(py)))
 }
 
-/// Lines of a series, the strongest first: a mean and waves
-/// `amplitude * cos(2π frequency t + phase)`, t from the first sample.
+/// Spectral lines of a series, the strongest first. The series is a drift plus waves `amplitude *
+/// cos(2π frequency t + phase)`, with t from the first sample.
 #[pyclass(frozen, module = "branched_pendulum.analysis")]
 pub(crate) struct Lines {
     found: Found,
-    /// Arguments by which they were found.
+    /// Arguments with which the lines were found.
     arguments: Py<PyTuple>,
 }
 
@@ -100,7 +101,8 @@ impl Lines {
         self.each(py, |line| line.frequency_hz)
     }
 
-    /// Standard deviations of the frequencies, Hz, were what is left beside each line noise.
+    /// Standard deviations of the frequencies (Hz), if everything except the line itself is
+    /// considered noise.
     #[getter]
     fn frequency_errors<'py>(&self, py: Python<'py>) -> Row<'py> {
         self.each(py, |line| line.deviation_hz)
@@ -118,7 +120,7 @@ impl Lines {
         self.each(py, |line| line.amplitude_deviation)
     }
 
-    /// Phases at the first sample, rad from −π to π.
+    /// Phases at the first sample, in rad, from −π to π.
     #[getter]
     fn phases<'py>(&self, py: Python<'py>) -> Row<'py> {
         self.each(py, |line| line.phase)
@@ -130,13 +132,29 @@ impl Lines {
         self.found.mean
     }
 
-    /// Root mean square of what the lines leave of the series.
+    /// Drift of the series: coefficients of the powers 0, 1, … of the time (s) measured from the
+    /// middle of the record.
+    #[getter]
+    fn trend<'py>(&self, py: Python<'py>) -> Row<'py> {
+        self.found.trend.clone().into_pyarray(py)
+    }
+
+    /// Amplitude of the strongest remaining component that is slower than one cycle over the
+    /// record; 0 if it is not above the noise. Such a component may hide lines: use a larger
+    /// `trend`.
+    #[getter]
+    fn slow(&self) -> f64 {
+        self.found.slow
+    }
+
+    /// Root mean square of the series after drift and lines are subtracted.
     #[getter]
     fn residual(&self) -> f64 {
         self.found.residual
     }
 
-    /// Distance (Hz) within which two lines are taken for one: one cycle over the record.
+    /// Frequency difference (Hz) below which two lines cannot be separated: one cycle over the
+    /// record.
     #[getter]
     fn resolution(&self) -> f64 {
         self.found.resolution_hz
@@ -146,15 +164,19 @@ impl Lines {
         self.found.lines.len()
     }
 
-    /// Returns the sum of mean and lines at times (s) from the first sample.
-    fn __call__<'py>(&self, py: Python<'py>, t: Numbers<'py>) -> PyResult<Table<'py>> {
+    /// Returns the sum of drift and lines at the given times (s), measured from the first sample.
+    fn __call__<'py>(
+        &self,
+        py: Python<'py>,
+        #[pyo3(from_py_with = named::t)] t: Numbers<'py>,
+    ) -> PyResult<Table<'py>> {
         let shape = t.shape().to_vec();
         let times = t.to_vec();
         let values = times.iter().map(|time| self.found.value(*time));
         values.collect::<Vec<f64>>().into_pyarray(py).reshape(shape)
     }
 
-    /// Returns each line's name as a combination of fundamental frequencies.
+    /// Returns the name of each line as a combination of fundamental frequencies.
     ///
     /// Parameters
     /// ----------
@@ -178,12 +200,11 @@ impl Lines {
     #[pyo3(signature = (fundamentals, order = 5, tolerance = 0.01))]
     fn named(
         &self,
-        fundamentals: &Bound<'_, PyDict>,
-        order: i128,
-        tolerance: f64,
+        #[pyo3(from_py_with = named::fundamentals)] fundamentals: Entries<f64>,
+        #[pyo3(from_py_with = named::order)] order: i128,
+        #[pyo3(from_py_with = named::tolerance)] tolerance: f64,
     ) -> PyResult<Vec<Option<String>>> {
-        let fundamentals = fundamentals.items().extract::<Vec<(String, f64)>>()?;
-        let (names, frequencies): (Vec<String>, Vec<f64>) = fundamentals.into_iter().unzip();
+        let (names, frequencies): (Vec<String>, Vec<f64>) = fundamentals.0.into_iter().unzip();
         let names: Vec<&str> = names.iter().map(String::as_str).collect();
         let order = whole("order", order, 1)?;
         let tones = self.found.named(&frequencies, order, tolerance).into_iter();
@@ -195,7 +216,7 @@ impl Lines {
         Ok((find, self.arguments.clone_ref(py)))
     }
 
-    /// Returns true for the same lines.
+    /// Compares with another object; true if it has the same lines.
     fn __eq__(&self, other: &Bound<'_, PyAny>) -> bool {
         let other = other.cast::<Self>();
         other.is_ok_and(|other| self.found == other.get().found)
@@ -226,6 +247,9 @@ impl Lines {
 ///     what noise would show.
 /// window : int
 ///     Power of Hann's window.
+/// trend : int
+///     Largest degree of the polynomial that follows a drift of the series, 0 for its mean alone.
+///     The degree is raised only while something slower than a cycle over the record is left.
 ///
 /// Returns
 /// -------
@@ -233,18 +257,26 @@ impl Lines {
 ///
 /// Examples
 /// --------
-/// >>> x = 2 * np.sin(2 * np.pi * 5.3 * np.arange(500) / 100)
+/// >>> t = np.arange(500) / 100
+/// >>> x = 2 * np.sin(2 * np.pi * 5.3 * t)
 /// >>> bp.analysis.lines(x, 100).frequencies.round(6)
 /// array([5.3])
+///
+/// A drift hides no line:
+///
+/// >>> found = bp.analysis.lines(x + 7 * t, 100)
+/// >>> found.frequencies.round(6), found.trend.round(6)[1]
+/// (array([5.3]), np.float64(7.0))
 #[pyfunction]
-#[pyo3(signature = (x, sample_rate, most = 12, smallest = 1e-9, window = 1))]
+#[pyo3(signature = (x, sample_rate, most = 12, smallest = 1e-9, window = 1, trend = 3))]
 pub(crate) fn lines(
     py: Python<'_>,
-    x: Numbers<'_>,
-    sample_rate: f64,
-    most: i128,
-    smallest: f64,
-    window: i128,
+    #[pyo3(from_py_with = named::x)] x: Numbers<'_>,
+    #[pyo3(from_py_with = named::sample_rate)] sample_rate: f64,
+    #[pyo3(from_py_with = named::most)] most: i128,
+    #[pyo3(from_py_with = named::smallest)] smallest: f64,
+    #[pyo3(from_py_with = named::window)] window: i128,
+    #[pyo3(from_py_with = named::trend)] trend: i128,
 ) -> PyResult<Lines> {
     let power = window;
     let samples = x.list("x")?;
@@ -252,16 +284,17 @@ pub(crate) fn lines(
         window: self::window(window)?,
         most: whole("most", most, 1)?,
         smallest,
+        trend: whole("trend", trend, 0)?,
     };
     let found = on_own_thread(py, move || search.find(&samples, sample_rate))?;
-    let arguments = (x.array(), sample_rate, most, smallest, power).into_pyobject(py)?;
+    let arguments = (x.array(), sample_rate, most, smallest, power, trend).into_pyobject(py)?;
     Ok(Lines {
         found: found.map_err(refused)?,
         arguments: arguments.unbind(),
     })
 }
 
-/// Returns the integral of a series from the first time to each.
+/// Returns the integral of a series from the first time to each time.
 ///
 /// Parameters
 /// ----------
@@ -283,8 +316,8 @@ pub(crate) fn lines(
 #[pyfunction]
 pub(crate) fn running_integral<'py>(
     py: Python<'py>,
-    t: Numbers<'py>,
-    x: Numbers<'py>,
+    #[pyo3(from_py_with = named::t)] t: Numbers<'py>,
+    #[pyo3(from_py_with = named::x)] x: Numbers<'py>,
 ) -> PyResult<Row<'py>> {
     let (times, values) = (t.list("t")?, x.list("x")?);
     if times.len() != values.len() {

@@ -1,17 +1,19 @@
-//! Means over time and their errors: `analysis.average`, `analysis.transient`.
+//! Averages over time and their errors: `analysis.average`, `analysis.transient`.
 
 use branched_pendulum::analysis::statistics::{Average, StatisticsError};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
+use crate::arguments::named;
 use crate::arrays::Numbers;
 
 fn refused(error: StatisticsError) -> PyErr {
     PyValueError::new_err(format!("x: {error}"))
 }
 
-/// Returns the mean of samples of a steady motion, whose neighbours are correlated.
+/// Returns the mean of a steady motion's samples, and its error, which accounts for the correlation
+/// of successive samples.
 ///
 /// Parameters
 /// ----------
@@ -36,7 +38,10 @@ fn refused(error: StatisticsError) -> PyErr {
 /// >>> abs(found["mean"] - 5) < 4 * found["error"], 0.01 < found["error"] < 0.03
 /// (True, True)
 #[pyfunction]
-pub(crate) fn average<'py>(py: Python<'py>, x: Numbers<'py>) -> PyResult<Bound<'py, PyDict>> {
+pub(crate) fn average<'py>(
+    py: Python<'py>,
+    #[pyo3(from_py_with = named::x)] x: Numbers<'py>,
+) -> PyResult<Bound<'py, PyDict>> {
     let (samples, numbers) = match *x.shape() {
         [samples] | [_, samples] => (samples, x.to_vec()),
         ref shape => {
@@ -58,7 +63,7 @@ pub(crate) fn average<'py>(py: Python<'py>, x: Numbers<'py>) -> PyResult<Bound<'
     Ok(found)
 }
 
-/// Returns how many first samples of a series belong to its transient, by MSER-5.
+/// Returns how many samples at the start of a series belong to its transient, by the rule MSER-5.
 ///
 /// Parameters
 /// ----------
@@ -81,6 +86,6 @@ pub(crate) fn average<'py>(py: Python<'py>, x: Numbers<'py>) -> PyResult<Bound<'
 /// >>> 50 <= bp.analysis.transient(x) <= 200
 /// True
 #[pyfunction]
-pub(crate) fn transient(x: Numbers<'_>) -> PyResult<usize> {
+pub(crate) fn transient(#[pyo3(from_py_with = named::x)] x: Numbers<'_>) -> PyResult<usize> {
     branched_pendulum::analysis::statistics::transient(&x.list("x")?).map_err(refused)
 }

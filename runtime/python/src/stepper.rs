@@ -1,16 +1,18 @@
-//! Motion step by step at the caller's pace: `Tree.stepper`.
+//! Motions that the caller advances step by step: `Tree.stepper`.
 
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError, TryLockError};
 
 use branched_pendulum::integrate::{
-    AnyIntegrator, IntegrationError as Failure, Integrator, Stepper,
+    AnyIntegrator, IntegrationError as Failure, Integrator, Method, Stepper,
 };
 use branched_pendulum::system::{Model, RatesOnly, State, Torques, UnderTorques};
 use branched_pendulum_trees::PendulumTree;
 use numpy::{IntoPyArray, PyArray1};
-use pyo3::exceptions::{PyTypeError, PyValueError};
+use pyo3::exceptions::{PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
+use pyo3::{PyTraverseError, PyVisit};
 
+use crate::arguments::{Argument, named};
 use crate::arrays::{Numbers, Row};
 use crate::failures::failed;
 use crate::interrupts::detached;
@@ -18,15 +20,15 @@ use crate::results::report;
 use crate::stepping::Stepping;
 use crate::tree::Tree;
 
-/// Where torques come from.
+/// Source of torques.
 enum Source {
-    /// Torques that stay as they are, N m.
+    /// Constant torques, in N m.
     Constant(Vec<f64>),
-    /// A function `f(t, y)` of Python.
+    /// A Python function `f(t, y)` that returns torques.
     Function(Py<PyAny>),
 }
 
-/// Torques from outside, and what their function has raised.
+/// External torques, and the exception that their function has raised.
 #[derive(Clone)]
 struct Acting {
     source: Arc<Source>,
@@ -41,19 +43,25 @@ impl Acting {
         }
     }
 
-    /// Torques on so many links, as they are given: a function, numbers, or none.
+    fn none(links: usize) -> Self {
+        Self::of(Source::Constant(vec![0.0; links]))
+    }
+
+    /// Returns the exception that the function has raised, the first time it is called.
+    fn take_raised(&self) -> Option<PyErr> {
+        let mut raised = self.raised.lock().unwrap_or_else(PoisonError::into_inner);
+        raised.take()
+    }
+
+    /// Converts torques on `links` links from Python: a function, numbers, or `None`.
     fn from_python(torques: Option<&Bound<'_, PyAny>>, links: usize) -> PyResult<Self> {
         let Some(torques) = torques else {
-            return Ok(Self::of(Source::Constant(vec![0.0; links])));
+            return Ok(Self::none(links));
         };
         if torques.is_callable() {
             return Ok(Self::of(Source::Function(torques.clone().unbind())));
         }
-        let numbers = torques.extract::<Numbers<'_>>().map_err(|error| {
-            let reason = error.value(torques.py());
-            let text = format!("torques: {reason}; it must be a function f(t, y) or an array");
-            PyTypeError::new_err(text)
-        })?;
+        let numbers = Numbers::converted("torques", "a function f(t, y) or real numbers", torques)?;
         Ok(Self::of(Source::Constant(numbers.row("torques", links)?)))
     }
 
@@ -64,10 +72,7 @@ impl Acting {
             let value = function
                 .bind(py)
                 .call1((time, PyArray1::from_slice(py, state)))?;
-            let numbers = value.extract::<Numbers<'_>>().map_err(|error| {
-                let reason = error.value(py);
-                PyTypeError::new_err(format!("the value of torques: {reason}"))
-            })?;
+            let numbers = Numbers::of("the value of torques", &value)?;
             numbers.row("the value of torques", state.len() / 2)
         })
     }
@@ -102,24 +107,39 @@ fn system(tree: &PendulumTree, acting: &Acting) -> System {
 
 type Under = Stepper<AnyIntegrator<f64>, System>;
 
-/// A motion under way, from `Tree.stepper`: the caller asks for its steps or its frames.
+/// A motion that the caller advances by steps or by frames; created by `Tree.stepper`.
 ///
-/// Between any two requests state and torques may be changed; the method then starts anew from
-/// there. After an exception the state is that at the end of the last step that was made; after
-/// Ctrl-C that before the call.
-#[pyclass(name = "Stepper", module = "branched_pendulum")]
+/// State and torques may be changed between two calls; the method then restarts from the new state.
+/// After an exception, the state is the end of the last completed step; after Ctrl-C, the state
+/// before the call.
+#[pyclass(frozen, name = "Stepper", module = "branched_pendulum")]
 pub(crate) struct PyStepper {
+    /// State of the motion, locked during each call.
+    progress: Mutex<Progress>,
+}
+
+/// State of a motion between two calls.
+struct Progress {
     tree: PendulumTree,
+    name: Method,
     method: AnyIntegrator<f64>,
     acting: Acting,
     stepper: Under,
 }
 
-impl PyStepper {
-    /// Makes a request of the stepper.
+impl Progress {
+    /// Replaces the torques, so that the next step restarts the method. Returns the previous
+    /// torques.
+    fn act(&mut self, acting: Acting) -> Acting {
+        *self.stepper.ode_mut() = system(&self.tree, &acting);
+        std::mem::replace(&mut self.acting, acting)
+    }
+
+    /// Runs work on the stepper.
     ///
     /// # Errors
-    /// What the function of torques or the handler of a signal has raised; that of a failure.
+    /// The exception that the function of torques or the handler of a signal has raised, or the
+    /// exception for a failed step.
     fn request<R: Send>(
         &mut self,
         py: Python<'_>,
@@ -140,13 +160,7 @@ impl PyStepper {
                 }
             }
         };
-        let raised = self
-            .acting
-            .raised
-            .lock()
-            .unwrap_or_else(PoisonError::into_inner)
-            .take();
-        match raised {
+        match self.acting.take_raised() {
             Some(error) => Err(error),
             None => outcome.map_err(failed),
         }
@@ -159,44 +173,86 @@ impl PyStepper {
     }
 }
 
-#[pymethods]
 impl PyStepper {
-    /// The time, s.
-    #[getter]
-    fn t(&self) -> f64 {
-        self.stepper.time()
-    }
-
-    /// The state: angles (rad), angular velocities (rad/s), shape (2 n,).
-    #[getter]
-    fn y<'py>(&self, py: Python<'py>) -> Row<'py> {
-        self.stepper.state().to_vec().into_pyarray(py)
-    }
-
-    /// The account of all steps so far.
-    #[getter]
-    fn report<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        report(py, self.stepper.report())
-    }
-
-    /// Torques from outside: an array, shape (n,), N m, or a function `f(t, y)` of it; to be set.
-    #[getter]
-    fn torques<'py>(&self, py: Python<'py>) -> Bound<'py, PyAny> {
-        match &*self.acting.source {
-            Source::Constant(values) => values.clone().into_pyarray(py).into_any(),
-            Source::Function(function) => function.bind(py).clone(),
+    /// Locks the motion for one call.
+    ///
+    /// # Errors
+    /// RuntimeError if the stepper is in use: by another thread, or if the function of torques
+    /// calls it during a step.
+    fn progress(&self) -> PyResult<MutexGuard<'_, Progress>> {
+        match self.progress.try_lock() {
+            Ok(progress) => Ok(progress),
+            Err(TryLockError::Poisoned(poisoned)) => Ok(poisoned.into_inner()),
+            Err(TryLockError::WouldBlock) => Err(PyRuntimeError::new_err(
+                "the stepper is in the middle of a step, and cannot be used until the step ends; \
+                 torques f(t, y) have its time and state as arguments, t and y",
+            )),
         }
     }
+}
 
-    #[setter]
-    fn set_torques(&mut self, torques: Option<Bound<'_, PyAny>>) -> PyResult<()> {
-        self.acting = Acting::from_python(torques.as_ref(), self.tree.links())?;
-        // By this the next step starts anew.
-        *self.stepper.ode_mut() = system(&self.tree, &self.acting);
+#[pymethods]
+impl PyStepper {
+    /// Reports the function of torques to Python's garbage collector, because it often refers to
+    /// the stepper. A stepper that is making a step is in use and reports nothing.
+    fn __traverse__(&self, visit: PyVisit<'_>) -> Result<(), PyTraverseError> {
+        if let Ok(progress) = self.progress.try_lock()
+            && let Source::Function(function) = &*progress.acting.source
+        {
+            visit.call(function)?;
+        }
         Ok(())
     }
 
-    /// Goes on from another time and state.
+    fn __clear__(&self) {
+        let before = self.progress().map(|mut progress| {
+            let none = Acting::none(progress.tree.links());
+            progress.act(none)
+        });
+        // Unlocked: the end of an object may call Python.
+        drop(before);
+    }
+
+    /// The time, s.
+    #[getter]
+    fn t(&self) -> PyResult<f64> {
+        Ok(self.progress()?.stepper.time())
+    }
+
+    /// The present state: angles (rad), angular velocities (rad/s), shape (2 n,).
+    #[getter]
+    fn y<'py>(&self, py: Python<'py>) -> PyResult<Row<'py>> {
+        Ok(self.progress()?.stepper.state().to_vec().into_pyarray(py))
+    }
+
+    /// Report of all steps so far.
+    #[getter]
+    fn report<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let progress = self.progress()?;
+        report(py, progress.name, progress.stepper.report(), None)
+    }
+
+    /// External torques: an array of shape (n,) in N m, or a function `f(t, y)` that returns one.
+    /// Can be assigned.
+    #[getter]
+    fn torques<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        Ok(match &*self.progress()?.acting.source {
+            Source::Constant(values) => values.clone().into_pyarray(py).into_any(),
+            Source::Function(function) => function.bind(py).clone(),
+        })
+    }
+
+    #[setter]
+    fn set_torques(&self, torques: Option<Bound<'_, PyAny>>) -> PyResult<()> {
+        let links = self.progress()?.tree.links();
+        let acting = Acting::from_python(torques.as_ref(), links)?;
+        let before = self.progress()?.act(acting);
+        // Unlocked: the end of an object may call Python.
+        drop(before);
+        Ok(())
+    }
+
+    /// Continues from another time and state.
     ///
     /// Parameters
     /// ----------
@@ -216,13 +272,18 @@ impl PyStepper {
     /// >>> stepper.set_state(2.0, [0.2, 0.0])
     /// >>> stepper.t, stepper.y
     /// (2.0, array([0.2, 0. ]))
-    fn set_state(&mut self, t: f64, y: Numbers<'_>) -> PyResult<()> {
-        let state = y.row("y", 2 * self.tree.links())?;
-        let set = self.stepper.set_state(t, &state);
+    fn set_state(
+        &self,
+        #[pyo3(from_py_with = named::t)] t: f64,
+        #[pyo3(from_py_with = named::y)] y: Numbers<'_>,
+    ) -> PyResult<()> {
+        let mut progress = self.progress()?;
+        let state = y.row("y", 2 * progress.tree.links())?;
+        let set = progress.stepper.set_state(t, &state);
         set.map_err(|error| failed(error.into()))
     }
 
-    /// Makes one step, of the length that the method chooses.
+    /// Makes one step, whose length the method chooses.
     ///
     /// Parameters
     /// ----------
@@ -243,14 +304,18 @@ impl PyStepper {
     /// >>> stepper.t, stepper.y.round(4)
     /// (1.0, array([-0.077 ,  0.2446]))
     #[pyo3(signature = (until = None))]
-    fn step(&mut self, py: Python<'_>, until: Option<f64>) -> PyResult<bool> {
-        self.request(py, |stepper| match until {
+    fn step(
+        &self,
+        py: Python<'_>,
+        #[pyo3(from_py_with = named::until)] until: Option<f64>,
+    ) -> PyResult<bool> {
+        self.progress()?.request(py, |stepper| match until {
             Some(end) => Ok(stepper.step_to(end)?.is_some()),
             None => stepper.step().map(|_| true),
         })
     }
 
-    /// Moves time and state by a frame, in steps as long as the method makes them.
+    /// Advances time and state by one frame. The method chooses the lengths of the steps.
     ///
     /// Parameters
     /// ----------
@@ -270,24 +335,30 @@ impl PyStepper {
     /// ...     y = stepper.advance(1 / 60)
     /// >>> y.round(4)
     /// array([-0.077 ,  0.2446])
-    fn advance<'py>(&mut self, py: Python<'py>, duration: f64) -> PyResult<Row<'py>> {
+    fn advance<'py>(
+        &self,
+        py: Python<'py>,
+        #[pyo3(from_py_with = named::duration)] duration: f64,
+    ) -> PyResult<Row<'py>> {
         if !duration.is_finite() {
             let text = format!("duration must be a finite time, got {duration} s");
             return Err(PyValueError::new_err(text));
         }
-        self.request(py, |stepper| stepper.advance(duration))?;
-        Ok(self.y(py))
+        let mut progress = self.progress()?;
+        progress.request(py, |stepper| stepper.advance(duration))?;
+        Ok(progress.stepper.state().to_vec().into_pyarray(py))
     }
 
-    fn __repr__(&self) -> String {
-        let (time, steps) = (self.stepper.time(), self.stepper.report().accepted);
-        format!("Stepper at t = {time} s after {steps} steps")
+    fn __repr__(&self) -> PyResult<String> {
+        let progress = self.progress()?;
+        let (time, steps) = (progress.stepper.time(), progress.stepper.report().accepted);
+        Ok(format!("Stepper at t = {time} s after {steps} steps"))
     }
 }
 
 #[pymethods]
 impl Tree {
-    /// Begins a motion that goes step by step, or frame by frame, under torques from outside.
+    /// Starts a motion that is advanced step by step, or frame by frame, under external torques.
     ///
     /// Parameters
     /// ----------
@@ -318,25 +389,26 @@ impl Tree {
     /// >>> stepper = rod.stepper([3.0, 0.0], torques=hold)
     /// >>> float(stepper.advance(10.0)[0].round(6))
     /// 3.141593
-    #[pyo3(signature = (y0, t = 0.0, *, torques = None, method = "dop853", rtol = 1e-9, atol = None, step = None, first_step = None, max_step = None, max_steps = 1_000_000))]
+    #[pyo3(signature = (y0, t = 0.0, *, torques = None, method = "auto", rtol = 1e-9, atol = None, step = None, first_step = None, max_step = None, max_steps = 1_000_000))]
     #[allow(clippy::too_many_arguments)]
     fn stepper<'py>(
         &self,
-        y0: Numbers<'py>,
-        t: f64,
+        #[pyo3(from_py_with = named::y0)] y0: Numbers<'py>,
+        #[pyo3(from_py_with = named::t)] t: f64,
         torques: Option<Bound<'py, PyAny>>,
-        method: &str,
-        rtol: f64,
-        atol: Option<Numbers<'py>>,
-        step: Option<f64>,
-        first_step: Option<f64>,
-        max_step: Option<f64>,
-        max_steps: i128,
+        #[pyo3(from_py_with = named::method)] method: &str,
+        #[pyo3(from_py_with = named::rtol)] rtol: f64,
+        #[pyo3(from_py_with = named::atol)] atol: Option<Numbers<'py>>,
+        #[pyo3(from_py_with = named::step)] step: Option<f64>,
+        #[pyo3(from_py_with = named::first_step)] first_step: Option<f64>,
+        #[pyo3(from_py_with = named::max_step)] max_step: Option<f64>,
+        #[pyo3(from_py_with = named::max_steps)] max_steps: i128,
     ) -> PyResult<PyStepper> {
         let tree = self.tree();
         let dimension = 2 * tree.links();
         let stepping = Stepping {
             method,
+            automatic: Method::for_lanes(rtol),
             rtol,
             atol: atol.as_ref(),
             step,
@@ -353,19 +425,18 @@ impl Tree {
         let acting = Acting::from_python(torques.as_ref(), tree.links())?;
         let start = State::new(t, y0.row("y0", dimension)?);
         let stepper = method.start(system(tree, &acting), &start);
-        let raised = acting
-            .raised
-            .lock()
-            .unwrap_or_else(PoisonError::into_inner)
-            .take();
-        if let Some(error) = raised {
+        if let Some(error) = acting.take_raised() {
             return Err(error);
         }
-        Ok(PyStepper {
+        let progress = Progress {
             tree: tree.clone(),
             stepper: stepper.map_err(failed)?,
+            name: stepping.method()?,
             method,
             acting,
+        };
+        Ok(PyStepper {
+            progress: Mutex::new(progress),
         })
     }
 }

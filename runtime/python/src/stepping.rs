@@ -1,4 +1,4 @@
-//! Methods by their names, with their tolerances and steps.
+//! Integration methods selected by name, with their tolerances and steps.
 
 use branched_pendulum::integrate::{AnyIntegrator, Method, Options, Tolerance};
 use pyo3::exceptions::PyValueError;
@@ -7,9 +7,14 @@ use pyo3::prelude::*;
 use crate::arrays::{Numbers, whole};
 use crate::memory::shown;
 
-/// A method by its name, with its tolerances or its step.
+/// Name that leaves the choice of the method to the program.
+const AUTOMATIC: &str = "auto";
+
+/// An integration method selected by name, with its tolerances or step length.
 pub(crate) struct Stepping<'a, 'py> {
     pub(crate) method: &'a str,
+    /// Method for the name `auto`.
+    pub(crate) automatic: Method,
     pub(crate) rtol: f64,
     pub(crate) atol: Option<&'a Numbers<'py>>,
     pub(crate) step: Option<f64>,
@@ -19,12 +24,35 @@ pub(crate) struct Stepping<'a, 'py> {
 }
 
 impl Stepping<'_, '_> {
-    /// Returns the method for states of so many numbers.
+    /// Returns the method, chosen by name or, for `auto`, by the program.
+    pub(crate) fn method(&self) -> PyResult<Method> {
+        if self.method.eq_ignore_ascii_case(AUTOMATIC) {
+            return match self.step {
+                None => Ok(self.automatic),
+                Some(_) => Err(PyValueError::new_err(
+                    "step= belongs to a method with steps of one length: give method=\"rk4\" or \
+                     \"gauss2\" to \"gauss8\" with it",
+                )),
+            };
+        }
+        let method = self.method.parse();
+        method.map_err(|error| PyValueError::new_err(format!("method: {error}")))
+    }
+
+    /// Returns the method with a tighter tolerance or shorter step, for comparison.
+    pub(crate) fn finer(&self, dimension: usize) -> PyResult<AnyIntegrator<f64>> {
+        let method = self.method()?;
+        let finer = Self {
+            rtol: method.finer(self.rtol),
+            step: self.step.map(|step| method.finer(step)),
+            ..*self
+        };
+        finer.integrator(dimension)
+    }
+
+    /// Returns the method for states of `dimension` numbers.
     pub(crate) fn integrator(&self, dimension: usize) -> PyResult<AnyIntegrator<f64>> {
-        let method: Method = self
-            .method
-            .parse()
-            .map_err(|error| PyValueError::new_err(format!("method: {error}")))?;
+        let method = self.method()?;
         let mut options = Options::with_tolerance(self.rtol);
         options.step_limit = whole("max_steps", self.max_steps, 1)?;
         let refused = |text: String| Err(PyValueError::new_err(text));
@@ -65,7 +93,7 @@ impl Stepping<'_, '_> {
     }
 }
 
-/// Absolute tolerances: one, or one for each number of a state.
+/// Converts absolute tolerances: one for all, or one for each number of a state.
 fn absolute(atol: &Numbers<'_>, dimension: usize) -> PyResult<Tolerance<f64>> {
     let values = atol.to_vec();
     match (atol.shape(), &values[..]) {

@@ -10,19 +10,19 @@ use branched_pendulum::integrate::Taylor;
 use branched_pendulum::system::{AbsoluteAngles, Model, Positions, State};
 use branched_pendulum::transfer::SymmetricTree;
 use branched_pendulum_trees::{PendulumTree, TreeDescription, TreeError};
-use pyo3::exceptions::{PyKeyError, PyTypeError, PyValueError};
+use pyo3::exceptions::{PyKeyError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use crate::DescriptionError;
-use crate::arrays::Number;
+use crate::arguments::{Argument, named};
 use crate::measured_model::MeasuredModel;
 use crate::pendulum::Pendulum;
 
 /// Links whose names are shown.
 const MOST_NAMES: usize = 8;
 
-/// A pendulum tree that a text describes.
+/// A pendulum tree that is described by a text.
 ///
 /// The text is `gravity = ...` and one root link with its children, with commas between them;
 /// `//` begins a comment. Values are numbers in SI units, names, and what `+ - * / ^` make of
@@ -83,7 +83,7 @@ const MOST_NAMES: usize = 8;
 pub(crate) struct Tree {
     system: Arc<AbsoluteAngles<PendulumTree>>,
     text: Arc<str>,
-    /// Formed when it is asked for.
+    /// Symmetric form of the tree, computed at its first use.
     symmetric: OnceLock<SymmetricTree<f64>>,
 }
 
@@ -131,26 +131,23 @@ pub(crate) fn wrong(py: Python<'_>, error: TreeError) -> PyErr {
             let refused = DescriptionError::new_err(format!("\n{error}"));
             let mistakes = error.mistakes().iter();
             let mistakes = mistakes.map(|mistake| (mistake.line, mistake.column, &mistake.message));
-            let told = refused
+            let reported = refused
                 .value(py)
                 .setattr("mistakes", mistakes.collect::<Vec<_>>());
-            told.err().unwrap_or(refused)
+            reported.err().unwrap_or(refused)
         }
         TreeError::UnknownParameter { .. } => PyKeyError::new_err(error.to_string()),
         _ => PyValueError::new_err(error.to_string()),
     }
 }
 
-/// Values of parameters by their names.
+/// Converts parameters from Python to names and values.
 fn values(parameters: Option<Bound<'_, PyDict>>) -> PyResult<Vec<(String, f64)>> {
     let parameters = parameters.into_iter().flatten();
     let value = |(name, value): (Bound<'_, PyAny>, Bound<'_, PyAny>)| {
         let name: String = name.extract()?;
-        let value = value.extract::<Number>().map_err(|error| {
-            let reason = error.value(value.py());
-            PyTypeError::new_err(format!("parameter `{name}`: {reason}"))
-        })?;
-        Ok((name, value.0))
+        let value = f64::of(&format!("parameter `{name}`"), &value)?;
+        Ok((name, value))
     };
     parameters.map(value).collect()
 }
@@ -166,14 +163,19 @@ fn class(tree: PendulumTree, text: Arc<str>) -> PyClassInitializer<Tree> {
 }
 
 impl Tree {
+    /// Returns the system of equations of the tree.
+    pub(crate) fn system(&self) -> &AbsoluteAngles<PendulumTree> {
+        &self.system
+    }
+
     pub(crate) fn tree(&self) -> &PendulumTree {
         &self.system.0
     }
 
-    /// The tree in its symmetric coordinates.
+    /// Returns the tree in its symmetric coordinates.
     ///
     /// # Errors
-    /// ValueError for a tree without copies.
+    /// ValueError if the tree has no copies.
     pub(crate) fn symmetric(&self, py: Python<'_>) -> PyResult<&SymmetricTree<f64>> {
         if let Some(known) = self.symmetric.get() {
             return Ok(known);
@@ -190,7 +192,7 @@ impl Tree {
     #[pyo3(signature = (text, /, **parameters))]
     fn new(
         py: Python<'_>,
-        text: &str,
+        #[pyo3(from_py_with = named::text)] text: &str,
         parameters: Option<Bound<'_, PyDict>>,
     ) -> PyResult<PyClassInitializer<Self>> {
         let parameters = values(parameters)?;
@@ -200,7 +202,7 @@ impl Tree {
         Ok(class(tree.map_err(|error| wrong(py, error))?, text.into()))
     }
 
-    /// Returns the tree with other values of parameters.
+    /// Returns the same tree with other values of some parameters.
     ///
     /// Parameters
     /// ----------
@@ -231,7 +233,7 @@ impl Tree {
         &self.text
     }
 
-    /// Values of the parameters, in SI units.
+    /// Values of the parameters by name, in SI units.
     #[getter]
     fn parameters(&self) -> BTreeMap<String, f64> {
         let names = self.tree().description().parameters();
@@ -240,7 +242,7 @@ impl Tree {
             .collect()
     }
 
-    /// For each link the index of the one that it hangs from; None of the root.
+    /// Index of each link's parent; None for the root.
     #[getter]
     fn parents(&self) -> Vec<Option<usize>> {
         self.tree().link_parents()
@@ -284,7 +286,7 @@ impl Tree {
         }
     }
 
-    /// Trees of the same text with the same values are equal.
+    /// Compares two trees; they are equal if they have the same text and the same values.
     fn __eq__(&self, other: &Bound<'_, PyAny>) -> bool {
         let bits =
             |tree: &Self| -> Vec<u64> { tree.parameters().values().map(|x| x.to_bits()).collect() };

@@ -1,4 +1,4 @@
-//! Error against time of every method: `Tree.work_precision`.
+//! Measurement of error against computing time for every method: `Tree.work_precision`.
 
 use branched_pendulum::integrate::Method;
 use branched_pendulum::scalar::{Double, Scalar};
@@ -8,15 +8,16 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
 use crate::advise::refused;
+use crate::arguments::named;
 use crate::arrays::Numbers;
 use crate::interrupts::detached;
 use crate::results::{array, result};
 use crate::tree::Tree;
 
-/// Errors in the words of a result.
+/// Errors for which the result states the fastest method.
 const ERRORS: [f64; 5] = [1e-3, 1e-6, 1e-9, 1e-11, 1e-13];
 
-/// Methods by their names, or the usual ones.
+/// Returns the methods with the given names, or the usual ones if no names are given.
 fn chosen(names: Option<Vec<String>>) -> PyResult<Vec<Method>> {
     let Some(names) = names else {
         return Ok(WorkPrecision::METHODS.to_vec());
@@ -97,12 +98,12 @@ impl Tree {
     fn work_precision<'py>(
         &self,
         py: Python<'py>,
-        y0: Numbers<'py>,
-        t: (f64, f64),
-        methods: Option<Vec<String>>,
+        #[pyo3(from_py_with = named::y0)] y0: Numbers<'py>,
+        #[pyo3(from_py_with = named::t)] t: [f64; 2],
+        #[pyo3(from_py_with = named::methods)] methods: Option<Vec<String>>,
     ) -> PyResult<Bound<'py, PyAny>> {
         let tree = self.tree();
-        let (begin, end) = t;
+        let [begin, end] = t;
         if !(begin.is_finite() && end.is_finite()) {
             return Err(PyValueError::new_err(format!(
                 "t must be finite, got ({begin}, {end})"

@@ -59,7 +59,7 @@ def test_tables_are_read_as_they_are(tmp_path):
     for way in [{"pivot": "origin"}, {"pivot": (0, 0)}, {"dots": [("origin", "m1")]}]:
         read = bp.data.read(path, **way, **options)
         np.testing.assert_allclose(read.theta[:, 0], of_point, rtol=1e-15)
-    with pytest.raises(bp.data.ReadError, match="stand beside points"):
+    with pytest.raises(bp.data.ReadError, match="columns of angles .* and points"):
         bp.data.read(path, **options)
     with pytest.raises(bp.data.ReadError, match="say which row of one time counts") as error:
         bp.data.read(path, columns=["theta1"], time="clock")
@@ -71,6 +71,33 @@ def test_tables_are_read_as_they_are(tmp_path):
         bp.data.read(path)
     path.write_text("t,a\n0.00,0.81\n0.01,0.82\n0.02,0.83\n")
     assert bp.data.read(path).findings[0].startswith("doubtful: angles in radians")
+
+
+def test_errors_of_the_reader_name_its_arguments(tmp_path):
+    """Recordings behind each other, encoder counts, whole times and repeated rows name what helps."""
+    path = tmp_path / "swing.csv"
+    rows = "".join(f"{0.01 * row:.2f},{0.5 + 0.01 * row * row:.4f}\n" for row in range(6))
+    path.write_text("t (s),a (rad)\n" + rows + rows)
+    with pytest.raises(bp.data.ReadError, match="recording=1 reads the first"):
+        bp.data.read(path)
+    np.testing.assert_allclose(bp.data.read(path, recording=2).t, 0.01 * np.arange(6))
+    with pytest.raises(bp.data.ReadError, match="the table holds 2 recordings"):
+        bp.data.read(path, recording=3)
+    counts = "".join(f"{row}.5,{3000 + 7 * row * row}\n" for row in range(12))
+    path.write_text("t,raw\n" + counts)
+    with pytest.raises(bp.data.ReadError, match='unit="counts:4096"'):
+        bp.data.read(path)
+    read = bp.data.read(path, unit="counts:4096", zero="down")
+    steps = 2 * np.pi / 4096 * 7 * np.arange(12) ** 2
+    np.testing.assert_allclose(read.theta[:, 0] - read.theta[0, 0], steps, atol=1e-12)
+    with pytest.raises(ValueError, match="counts:N"):
+        bp.data.read(path, unit="counts:0")
+    path.write_text("ticks,a (rad)\n0,0.1\n8,0.2\n16,0.4\n24,0.5\n")
+    with pytest.raises(bp.data.ReadError, match="found no column of times"):
+        bp.data.read(path)
+    with pytest.raises(bp.data.ReadError, match=r'time="ticks \[ms\]"'):
+        bp.data.read(path, time="ticks")
+    np.testing.assert_allclose(bp.data.read(path, time="ticks [ms]").t, [0, 0.008, 0.016, 0.024])
 
 
 def test_mistakes_in_files_have_places(tmp_path):
@@ -315,9 +342,9 @@ def test_growth_of_a_difference(model, of):
     with pytest.raises(ValueError, match="horizons"):
         pendulum.growth(starts, children, [4, 2])
     for pair in [("parent", "child_1"), ("child_1", "child_1")]:
-        with pytest.raises(ValueError, match="are no copies that start alike"):
+        with pytest.raises(ValueError, match="are not copies that start in phase"):
             pendulum.growth(starts, pair, [4])
-    with pytest.raises(ValueError, match="are no copies that start alike"):
+    with pytest.raises(ValueError, match="are not copies that start in phase"):
         pendulum.growth(apart, children, [4])
     assert np.isnan(pendulum.growth(starts * np.nan, children, [1]).factors).all()
 

@@ -100,18 +100,18 @@ def test_nothing_is_lost_of_an_array(tree, model, motion):
             ((good + 0j).astype(np.complex64), "complex"),
             (masked, "masked"),
             (list(masked), "masked"),
-            (good.astype(str), "no real numbers"),
-            (good.astype("m8[s]"), "no real numbers"),
-            ("far", "no real numbers"),
-            ([[1.0], [1.0, 2.0]], ""),
-            (None if name not in ("torques", "frequencies", "theta", "t") else {}, ""),
+            (good.astype(str), "must be .*real numbers"),
+            (good.astype("m8[s]"), "must be .*real numbers"),
+            ("far", "must be .*real numbers, got 'far'"),
+            ([[1.0], [1.0, 2.0]], "."),
+            (None if name not in ("torques", "frequencies", "theta", "t") else {}, "."),
         ]:
             with warnings.catch_warnings():
                 warnings.simplefilter("error")
-                # What was processed stands in a note behind the message.
-                named = f"{name}'?: .*{match}|{match}(.|\\n)*'{name}'"
-                with pytest.raises(TypeError, match=named):
+                with pytest.raises(TypeError, match=match) as refused:
                     call(bad)
+            # By its name, without a look at the note behind the message.
+            assert re.match(rf"(the value of )?{name}\b", str(refused.value)), refused.value
 
 
 def test_shapes_are_named(tree, model, motion):
@@ -189,7 +189,7 @@ def test_a_parameter_of_any_name():
         assert tree.changed(**{name: np.float32(2)}).parameters == {name: 2.0}
         assert tree.changed(**{name: np.array(3)}).parameters == {name: 3.0}
     for value in [1 + 2j, np.complex128(1), np.ones(2), "heavy", np.ma.masked, None]:
-        with pytest.raises((TypeError, ValueError), match="parameter `m`(: | is NaN)"):
+        with pytest.raises(TypeError, match="parameter `m` must be "):
             bp.Tree(PAPER, m=value)
     with pytest.raises(TypeError, match="text"):
         bp.Tree(text=PAPER, m=0.1)
@@ -277,3 +277,80 @@ def test_growth_tells_the_reason_of_each_failure(tree):
         grown = tree.growth(starts, ["child_1", "child_2"], [1])
     assert list(seen[0].message.reasons) == [1]
     assert np.isnan(grown.factors[1]).all() and np.isfinite(grown.factors[[0, 2]]).all()
+
+
+#: Calls with one wrong argument each, and the whole message.
+WRONG_TYPES = [
+    (lambda t: t.integrate(START, T, rtol="1e-9"), "rtol must be a real number, got '1e-9'"),
+    (lambda t: t.integrate(START, T, rtol=None), "rtol must be a real number, got None"),
+    (lambda t: t.integrate(START, T, step=[1, 2]), "step must be one real number, got an array of shape (2,)"),
+    (lambda t: t.integrate(START, T, method=5), "method must be a str, got 5"),
+    (lambda t: t.integrate(START, T, max_steps=1e6), "max_steps must be a whole number, got 1000000.0"),
+    (lambda t: t.integrate(START, T, dense_output="yes"), "dense_output must be True or False, got 'yes'"),
+    (lambda t: t.integrate(START, T, max_step="long"), "max_step must be a real number, got 'long'"),
+    (lambda t: t.ensemble([START], T, threads="all"), "threads must be a whole number, got 'all'"),
+    (lambda t: t.ensemble([START], T, parameters=[1]), "parameters must be a dict, got [1]"),
+    (lambda t: t.ensemble([START], T, parameters={"m": "heavy"}), "parameters[\"m\"] must be real numbers, got 'heavy'"),
+    (lambda t: t.ensemble([START], T, parameters={1: [1]}), "each key of parameters must be a str, got 1"),
+    (lambda t: t.identify(T, np.zeros((11, 3)), "m"), "unknown must be a list, got one str; write ['m']"),
+    (lambda t: t.identify(T, np.zeros((11, 3)), {"m": "big"}), "unknown[\"m\"] must be a real number, got 'big'"),
+    (lambda t: t.identify(T, np.zeros((11, 3)), 3), "unknown must be a list, got 3"),
+    (lambda t: t.identify(T, np.zeros((11, 3)), ["m"], nonnegative="m"), "nonnegative must be a list, got one str; write ['m']"),
+    (lambda t: t.growth([[0] * 6], "child", [1]), "pair must be a list, got one str; write ['child']"),
+    (lambda t: t.growth([[0] * 6], (1, 2), [1]), "pair[0] must be a str, got 1"),
+    (lambda t: t.lyapunov(START, transverse=[("child_1", 2)]), "transverse[0][1] must be a str, got 2"),
+    (lambda t: t.lyapunov(START, within="child"), "within must be a list, got one str; write ['child']"),
+    (lambda t: t.advise(START, (0, 1), {"angles": "small"}), "right[\"angles\"] must be a real number, got 'small'"),
+    (lambda t: t.work_precision(START, 5), "t must be 2 numbers, got 5"),
+    (lambda t: t.work_precision(START, (0, 1, 2)), "t must be 2 numbers, got (0, 1, 2)"),
+    (lambda t: t.points(np.zeros(3), 1), "point must be a str, got 1"),
+    (lambda t: t.stepper(START, torques="x"), "torques must be a function f(t, y) or real numbers, got 'x'"),
+    (lambda t: t.stepper(START, "late"), "t must be a real number, got 'late'"),
+    (lambda t: analysis.lines(np.sin(T), "fast"), "sample_rate must be a real number, got 'fast'"),
+    (lambda t: analysis.lines(np.sin(T), 10).named("f"), "fundamentals must be a dict, got 'f'"),
+    (lambda t: bp.data.read(7), "path must be a path: a str or a pathlib.Path, got 7"),
+    (lambda t: bp.data.read("x.csv", columns="a"), "columns must be a list, got one str; write ['a']"),
+    (lambda t: bp.data.read("x.csv", pivot=3), 'pivot must be "origin" or two numbers (x, y), got 3'),
+    (lambda t: bp.data.read("x.csv", gravity=[1]), 'gravity must be "axis", "first link" or the two numbers of a direction (x, y), got [1]'),
+    (lambda t: bp.Tree(3), "text must be a str, got 3"),
+]
+
+
+@pytest.mark.parametrize("index", range(len(WRONG_TYPES)))
+def test_wrong_types_are_named_in_one_sentence(tree, index):
+    call, message = WRONG_TYPES[index]
+    with pytest.raises(TypeError) as refused:
+        call(tree)
+    assert str(refused.value) == message
+
+
+def test_a_direction_that_is_no_number(tree):
+    def up(t, y):
+        return y[0]
+
+    for attribute in ["direction", "terminal"]:
+        function = lambda t, y: y[0]
+        setattr(function, attribute, "up")
+        message = rf"events\[1\]\.{attribute} must be a real number, got 'up'"
+        with pytest.raises(TypeError, match=message):
+            tree.integrate(START, [0, 1], events=[up, function])
+
+
+def test_no_tolerance_beside_a_zero_is_named(tree):
+    """A component that is 0, and may have no error, lets no step be made."""
+    rod = bp.Tree("gravity = 9.81, rod: rod(mass = 1, length = 1)")
+    for model, y0 in [(rod, [0.0, 2.0]), (rod, [0.3, 0.0]), (tree, [1, 2, 0, 0, 0, 0])]:
+        for method in ["dop853", "dopri5", "verner98"]:
+            zeros = np.zeros(len(y0))
+            with pytest.raises(bp.IntegrationError, match="give atol above 0"):
+                model.integrate(y0, [0, 1], method, atol=zeros)
+            with pytest.warns(bp.FailedMotions, match="give atol above 0"):
+                model.ensemble([y0], [0, 1], method, atol=zeros)
+
+
+def test_mappings_of_any_kind(tree):
+    from types import MappingProxyType
+
+    values = MappingProxyType({"m": [0.1, 0.2]})
+    states = tree.ensemble([START, START], T, parameters=values)
+    np.testing.assert_array_equal(states[0], tree.ensemble([START], T, parameters={"m": [0.1]})[0])

@@ -106,7 +106,7 @@ def test_means_without_errors_say_why(driven):
     tree, t, y = driven
     found = tree.budget(y[0, ::5][:40], t[::5][:40]).averages(discard=0)
     assert np.isnan(found.energy_errors).any() and np.isfinite(found.energies).all()
-    assert "too short" in found.notes[0] and found.notes[0] in str(found)
+    assert "too few" in found.notes[0] and found.notes[0] in str(found)
 
 
 def test_means_of_what_is_no_motion_are_refused(driven):

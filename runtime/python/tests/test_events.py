@@ -99,3 +99,21 @@ def test_a_start_on_a_zero_has_the_side_to_which_it_leaves(tree):
             expected = np.sign(end) * period * (first + np.arange(20))
             expected = expected[np.abs(expected) < abs(end)]
             np.testing.assert_allclose(found, expected, atol=1e-8)
+
+
+@pytest.mark.parametrize("end", [5.0, -5.0])
+@pytest.mark.parametrize("method, step", [("dop853", None), ("taylor", None), ("verner98", None), ("rk4", 1e-3)])
+def test_dense_output_reaches_the_event_that_ends_the_motion(tree, method, step, end):
+    """However the times are given: a pair in parentheses, a list of two, or many."""
+    events = [stopping(0, 2), angle(1)]
+    for times in [(0, end), [0, end], np.linspace(0, end, 501), [0, 1e-3 * end, end]]:
+        motion = tree.integrate(START, times, method, 1e-11, step=step, events=events, dense_output=True)
+        assert motion.status == 1 and len(motion.t_events[0]) == 2
+        for own, found, states in zip([0, 1], motion.t_events, motion.y_events):
+            assert np.abs(motion(found)[:, own]).max() < 1e-8
+            np.testing.assert_allclose(motion(found), states, atol=1e-7)
+        stop = motion.t_events[0][-1]
+        assert abs(motion.t[-1]) <= abs(stop) < abs(end)
+        np.testing.assert_array_equal(motion(motion.t), motion.y)
+        with pytest.raises(ValueError, match="outside"):
+            motion(1.01 * stop)

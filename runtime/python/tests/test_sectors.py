@@ -1,5 +1,7 @@
 """W of run-time trees against the compiled model, against differences along motions, by orders."""
 
+import pickle
+
 import branched_pendulum as bp
 import numpy as np
 import pytest
@@ -229,3 +231,46 @@ def test_parameters_from_frequencies():
             tree.identify(unknown=unknown, **given)
     with pytest.raises(TypeError, match="unknown is missing"):
         tree.identify(t, seen)
+
+
+def test_identify_refuses_angles_in_degrees_and_turns_that_are_not_counted():
+    tree = bp.Tree("gravity = 9.81, a: rod(mass = 0.2, length = l) [b: rod(mass = m, length = 0.2)]", l=0.3, m=0.1)
+    t = np.arange(0, 4, 1 / 50)
+    seen = tree.integrate([1.9, -1.0, 0, 0], t).y[:, :2]
+    whirl = tree.integrate([2.5, -1.0, 14, 0], t).y[:, :2]
+    for wrong in (np.degrees(seen), np.degrees(seen) + 30, np.angle(np.exp(1j * whirl))):
+        with pytest.raises(ValueError, match=r"np\.radians.*np\.unwrap"):
+            tree.identify(t, wrong, ["l"])
+    one = np.array(seen)
+    one[20, 1] = np.nan
+    found = tree.identify(t, one, ["l"])
+    assert found.failure is None and abs(found.values["l"] - 0.3) < 1e-4
+
+
+def test_identify_has_no_deviations_for_constants_of_no_pendulum():
+    tree = bp.Tree("""gravity = 9.81,
+        a(mass = 0.2, com = c, inertia = i, friction = f) []""".replace(" []", ""), c=0.2, i=1e-3, f=1e-4)
+    t = np.arange(0, 6, 1 / 50)
+    rng = np.random.default_rng(3)
+    for com in (0.3, 0.35, 0.4):
+        seen = tree.integrate([0.6, 0.0], t).y[:, :1] + rng.normal(0, 1e-3, (len(t), 1))
+        found = tree.changed(c=com).identify(t, seen, ["i", "f"])
+        assert "inertia" in found.failure and found.values["i"] < 0
+        assert all(own.deviation is None for own in found.estimates.values())
+
+
+def test_lines_beside_a_drift():
+    t = np.arange(0, 40, 1 / 50)
+    wave = 0.1 * np.cos(2 * np.pi * 1.1 * t)
+    for drift in (0 * t, 0.002 * t, 0.05 * t, 3 * t, 0.004 * t**2, 2 * np.exp(-t / 60)):
+        found = bp.analysis.lines(drift + wave, 50)
+        nearest = np.abs(found.frequencies - 1.1).argmin()
+        assert abs(found.frequencies[nearest] - 1.1) < 1e-3
+        assert abs(found.amplitudes[nearest] - 0.1) < 1e-3
+        assert found.slow == 0
+    assert abs(bp.analysis.lines(3 * t + wave, 50).trend[1] - 3) < 1e-9
+    assert bp.analysis.lines(3 * t + wave, 50, trend=0).slow > 1
+    with pytest.raises(ValueError, match="trend"):
+        bp.analysis.lines(wave, 50, trend=100)
+    kept = pickle.loads(pickle.dumps(bp.analysis.lines(3 * t + wave, 50, trend=2)))
+    assert kept == bp.analysis.lines(3 * t + wave, 50, trend=2)

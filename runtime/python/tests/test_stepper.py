@@ -1,5 +1,8 @@
 """Motion step by step, under torques that are functions of the state."""
 
+import gc
+import weakref
+
 import branched_pendulum as bp
 import numpy as np
 import pytest
@@ -83,7 +86,7 @@ def test_what_a_function_raises_is_raised():
     stepper.advance(0.1)
     for torques, error, words in [
         (lambda t, y: [1.0, 2.0], ValueError, r"the value of torques must have shape \(1,\), got \(2,\)"),
-        (lambda t, y: "x", TypeError, "the value of torques: "),
+        (lambda t, y: "x", TypeError, "the value of torques must be real numbers, got 'x'"),
         (lambda t, y: [np.nan], bp.IntegrationError, "not finite"),
     ]:
         with pytest.raises(error, match=words):
@@ -92,7 +95,7 @@ def test_what_a_function_raises_is_raised():
 
 @pytest.mark.parametrize("named, error, words", [
     ({"torques": [1, 2]}, ValueError, r"torques must have shape \(1,\), got \(2,\)"),
-    ({"torques": "x"}, TypeError, r"torques: .* no real numbers; it must be a function f\(t, y\) or an array"),
+    ({"torques": "x"}, TypeError, r"torques must be a function f\(t, y\) or real numbers, got 'x'"),
     ({"method": "taylor"}, ValueError, "method: torques from outside have no Taylor series"),
     ({"method": "rk4"}, ValueError, "give step="),
     ({"max_steps": 0}, ValueError, "max_steps must be at least 1"),
@@ -116,3 +119,104 @@ def test_requests_are_checked():
         with pytest.raises(error, match=words):
             call()
     assert stepper.t == 0 and stepper.y[0] == 0.1
+
+
+class Controller:
+    """Holds the stepper whose torques it is."""
+
+    def __init__(self):
+        self.stepper = bp.Tree(ROD, c=0.0).stepper([0.1, 0.0], torques=self.law)
+
+    def law(self, t, y):
+        return [-0.1 * y[1]]
+
+
+def _closed_over():
+    stepper = bp.Tree(ROD, c=0.0).stepper([0.1, 0.0])
+    marker = Marker()
+    stepper.torques = lambda t, y: [0.0 * len(repr(marker)) if stepper else 0.0]
+    stepper.advance(0.1)
+    return marker
+
+
+def _raised():
+    marker = Marker()
+
+    def law(t, y):
+        raise LookupError(marker)
+
+    stepper = bp.Tree(ROD, c=0.0).stepper([0.1, 0.0])
+    law.stepper = stepper
+    stepper.torques = law
+    with pytest.raises(LookupError):
+        stepper.advance(0.1)
+    return marker
+
+
+def _bound():
+    controller = Controller()
+    controller.stepper.advance(0.1)
+    return controller
+
+
+class Marker:
+    pass
+
+
+@pytest.mark.parametrize("make", [_bound, _closed_over, _raised])
+def test_torques_that_hold_their_stepper_are_freed(make):
+    gone = weakref.ref(make())
+    gc.collect()
+    assert gone() is None
+
+
+def test_a_stepper_is_freed_with_what_it_holds():
+    """Without a look of the collector, and after torques were replaced."""
+    gc.disable()
+    try:
+        for torques in [None, [0.1], lambda t, y: [0.0]]:
+            marker = Marker()
+            stepper = bp.Tree(ROD, c=0.0).stepper([0.1, 0.0], torques=lambda t, y: [0.0 if marker else 1.0])
+            gone = weakref.ref(marker)
+            del marker
+            stepper.advance(0.1)
+            assert gone() is not None
+            stepper.torques = torques
+            assert gone() is None
+    finally:
+        gc.enable()
+
+
+def test_the_collector_runs_while_a_step_is_made():
+    stepper = bp.Tree(ROD, c=0.0).stepper([0.1, 0.0])
+
+    def law(t, y):
+        gc.collect()
+        return [0.0]
+
+    law.stepper = stepper
+    stepper.torques = law
+    free = bp.Tree(ROD, c=0.0).stepper([0.1, 0.0])
+    np.testing.assert_array_equal(stepper.advance(0.5), free.advance(0.5))
+
+
+def test_torques_that_use_their_stepper_are_told_what_they_have():
+    rod = bp.Tree(ROD, c=0.0)
+    for use in [
+        lambda stepper: stepper.y,
+        lambda stepper: stepper.t,
+        lambda stepper: stepper.report,
+        lambda stepper: stepper.torques,
+        lambda stepper: stepper.advance(0.1),
+        lambda stepper: stepper.step(),
+        lambda stepper: stepper.set_state(0.0, [0.0, 0.0]),
+        lambda stepper: setattr(stepper, "torques", None),
+        repr,
+    ]:
+        stepper = rod.stepper([0.1, 0.0])
+        stepper.torques = lambda t, y: [0.0 if use(stepper) else 1.0]
+        with pytest.raises(RuntimeError, match=r"middle of a step.*torques f\(t, y\) have its time and state"):
+            stepper.advance(0.1)
+        # It goes on.
+        stepper.torques = None
+        assert np.isfinite(stepper.advance(0.1)).all()

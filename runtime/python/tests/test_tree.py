@@ -125,7 +125,7 @@ def test_lyapunov_exponents(tree):
     assert exponents[0] > 0.5 and abs(exponents.sum()) < 0.05
     with pytest.raises(ValueError, match="7 exponents"):
         tree.lyapunov(wild, count=7)
-    with pytest.raises(ValueError, match="positive time"):
+    with pytest.raises(ValueError, match="positive length"):
         tree.lyapunov(wild, interval=-0.5)
 
 
@@ -267,6 +267,20 @@ def test_taylor_series_meet_other_methods(tree):
     assert series.steps < other.steps
 
 
+def test_auto_takes_a_fast_method_and_names_it(tree):
+    times = np.linspace(0, 1, 3)
+    chosen = tree.integrate(START, times)
+    assert chosen.report.method == "taylor"
+    right = tree.integrate(START, times, method="dop853", rtol=1e-12)
+    np.testing.assert_allclose(chosen.y, right.y, atol=1e-6)
+    compiled = bp.models.BranchedDouble()
+    assert compiled.integrate(START, times).report.method == "verner98"
+    assert compiled.integrate(START, times, rtol=1e-3).report.method == "dop853"
+    assert tree.stepper(START, torques=[0, 0, 0]).report.method == "verner98"
+    with pytest.raises(ValueError, match="rk4"):
+        tree.integrate(START, times, step=1e-3)
+
+
 def test_other_threads_run(tree):
     ticks, done = [], threading.Event()
 
@@ -283,3 +297,77 @@ def test_other_threads_run(tree):
     done.set()
     thread.join()
     assert sum(begin < tick < end for tick in ticks) >= 3 or end - begin < 0.02
+
+
+BUCKLED = "gravity = -9.81, r: rod(mass = 0.4, length = 0.5, spring = 0.9)"
+VEE = """gravity = 9.80665, stem: rod(mass = 0.25, length = 0.28) [
+    left: rod(mass = 0.09, length = 0.22), right: rod(mass = 0.11, length = 0.25)
+], between(left, right, at = each(0.22, 0.25), spring = 2, rest = 0.2)"""
+
+
+@pytest.mark.parametrize(
+    "text, rest, kinds",
+    [
+        (BUCKLED, [0.71286], ["stable", "stable", "unstable"]),
+        (BUCKLED.replace("0.9", "1.2"), [0.0], ["stable"]),
+        (VEE, None, None),
+        ("gravity = 0, r: rod(mass = 0.4, length = 0.5)", [0.0], ["neutral"]),
+    ],
+)
+def test_equilibria_are_stable_unless_others_are_asked_for(text, rest, kinds):
+    tree = bp.Tree(text)
+    theta = tree.equilibrium()
+    if rest is not None:
+        np.testing.assert_allclose(np.abs(theta), rest, atol=1e-5)
+    n = len(theta)
+    np.testing.assert_allclose(tree.rhs(0.0, np.concatenate([theta, np.zeros(n)])), 0, atol=1e-9)
+    found = tree.equilibria()
+    np.testing.assert_allclose(found[0].theta, theta, atol=1e-9)
+    if kinds is not None:
+        assert [own.stability for own in found] == kinds
+    for own in found:
+        stiffness = np.linalg.eigvalsh(tree.stiffness_matrix(own.theta))
+        expected = {"stable": 1, "unstable": -1, "neutral": 0}[own.stability]
+        assert np.sign(np.round(stiffness[0], 12)) == expected
+    if found[0].stability == "stable":
+        np.testing.assert_allclose(tree.modes()[0], tree.modes(theta)[0])
+
+
+def test_descent_goes_to_the_side_of_its_start():
+    rod = bp.Tree(BUCKLED)
+    for start in (0.3, -0.3, 0.01, -2.0):
+        assert np.sign(rod.equilibrium([start])[0]) == np.sign(start)
+    assert abs(rod.equilibrium([0.3], stable=False)[0]) < 1e-12
+    hanging = bp.Tree("gravity = 10, rod: rod(mass = 1, length = 1)")
+    np.testing.assert_allclose(hanging.equilibrium([3.0], stable=False), [np.pi])
+    np.testing.assert_allclose(hanging.equilibrium([3.0]), [0.0], atol=1e-12)
+
+
+@pytest.mark.parametrize("method", ["dop853", "taylor", "verner98"])
+def test_chaos_is_reported_where_a_precision_is_asked_for(method):
+    text = """gravity = 9.80665,
+        upper: rod(mass = 0.24, length = 0.31) [lower: rod(mass = 0.17, length = 0.26)]"""
+    tree = bp.Tree(text)
+    t = np.linspace(0, 40, 401)
+    y = np.concatenate([np.radians([120, -120]), np.zeros(2)])
+    plain = tree.integrate(y, t, method=method)
+    assert plain.report.precision is None and plain.report.differs_from is None
+    chaotic = tree.integrate(y, t, method=method, precision=1e-6)
+    np.testing.assert_array_equal(chaotic.y, plain.y)
+    assert 2 < chaotic.report.differs_from < 35
+    assert "differs by more than" in str(chaotic.report)
+    coarse = tree.integrate(y, t, method=method, precision=0.1)
+    assert chaotic.report.differs_from <= coarse.report.differs_from
+    quiet = tree.integrate(0.05 * y, (0, 10), method=method, precision=1e-6)
+    assert quiet.report.differs_from is None and "agrees" in str(quiet.report)
+    for wrong in (0.0, -1.0, np.nan, np.inf):
+        with pytest.raises(ValueError, match="precision is .*, must be positive and finite"):
+            tree.integrate(y, t, precision=wrong)
+
+
+def test_names_of_physicists_and_of_files():
+    tree = bp.Tree("gravity = g, Bob: rod(mass = M, length = .5)", g=9.81, M=0.2)
+    assert tree.names == ["Bob"] and tree.parameters == {"M": 0.2, "g": 9.81}
+    for name in ("swing.txt", "trees/swing", "../a.txt"):
+        with pytest.raises(bp.DescriptionError, match="looks like the name of a file"):
+            bp.Tree(name)

@@ -15,24 +15,24 @@ use crate::errors::errors;
 /// The linear modes of a system, by ascending frequency.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Modes {
-    /// Frequencies in hertz, ascending.
+    /// Frequencies of the modes in Hz, in ascending order.
     pub frequencies_hz: Vec<f64>,
-    /// Shapes: `shapes[k][i]` is the part of coordinate i in mode k, in
-    /// kg^(-1/2) m^(-1). Shapes are orthonormal with respect to the mass matrix
-    /// (xᵀ M x = 1), and their largest component is positive. Modes of equal
-    /// frequency span a space; which basis of it is returned is arbitrary.
+    /// Shapes of the modes: `shapes[k][i]` is the component of mode k along coordinate i, in
+    /// kg^(-1/2) m^(-1). Shapes are orthonormal with respect to the mass matrix (xᵀ M x = 1), and
+    /// their largest component is positive. Modes of equal frequency span a space; the basis of it
+    /// that is returned is arbitrary.
     pub shapes: Vec<Vec<f64>>,
 }
 
 impl Modes {
-    /// The modes of a system with mass matrix `mass` (kg m²) and stiffness
-    /// matrix `stiffness` (N m/rad), both given row by row.
+    /// Returns the modes of a system with mass matrix `mass` (kg m²) and stiffness matrix
+    /// `stiffness` (N m/rad), both given row by row.
     ///
-    /// Matrices do not tell whether their angles are an equilibrium; about others
-    /// no motion stays small. [`at_rest`](Self::at_rest) asks for the torques too.
+    /// The matrices do not show if they belong to an equilibrium; about other angles no motion
+    /// stays small. [`at_rest`](Self::at_rest) also checks the torques.
     ///
-    /// Eigenvalues that vanish to rounding count as zero: a coordinate without
-    /// stiffness gives a mode of 0 Hz. Effort and memory grow as n³ and n².
+    /// Eigenvalues that vanish to rounding count as zero: a coordinate without stiffness has a mode
+    /// of 0 Hz. Effort and memory grow as n³ and n².
     ///
     /// # Errors
     ///
@@ -64,18 +64,19 @@ impl Modes {
         Self::of(mass, stiffness)
     }
 
-    /// The modes about angles at which the `torques` −∂U/∂θ (N m) vanish, one for
-    /// each coordinate: those of a system at rest, M α with its accelerations α.
+    /// Returns the modes about an equilibrium: angles at which the `torques` −∂U/∂θ (N m, one per
+    /// coordinate) vanish. They are the torques M α of a system at rest, with the mass matrix M and
+    /// the accelerations α.
     ///
-    /// A torque counts as zero where a millionth of a radian makes up for it.
+    /// A torque counts as zero if a change of the angles by a millionth of a radian cancels it.
     ///
     /// # Errors
     ///
-    /// As [`new`](Self::new); [`ModesError::NotAtRest`] where a torque is left.
+    /// As [`new`](Self::new); [`ModesError::NotAtRest`] if a torque is larger than that.
     ///
     /// # Examples
     ///
-    /// A rod, hanging and held aside:
+    /// A rod that hangs down, and one held at an angle of 0.3 rad:
     ///
     /// ```
     /// use branched_pendulum::analysis::{Modes, ModesError};
@@ -155,17 +156,18 @@ impl Modes {
     }
 }
 
-/// Implicit QR needs two or three sweeps for an eigenvalue; this is for
-/// thousands of them.
+/// Largest number of sweeps of the eigenvalue iteration. Implicit QR needs two or three sweeps per
+/// eigenvalue; this is enough for thousands of them.
 const MAX_SWEEPS: usize = 100_000;
 
-/// Relative asymmetry that rounding may leave in a computed matrix.
+/// Largest relative asymmetry that counts as rounding in a computed matrix.
 const ASYMMETRY: f64 = 1e-12;
 
-/// Largest angle (rad) by which an equilibrium may be missed.
+/// Largest distance (rad) from an equilibrium at which angles still count as an equilibrium.
 const MISSED: f64 = 1e-6;
 
-/// Refuses torques at rest for which no such small angle makes up.
+/// Returns an error if the torques at rest (N m) are too large to be cancelled by such a small
+/// change of the angles.
 pub(super) fn check_rest(stiffness: &DMatrix<f64>, torques: &[f64]) -> Result<(), ModesError> {
     if torques.len() != stiffness.nrows() {
         return Err(ModesError::Torques {
@@ -175,7 +177,7 @@ pub(super) fn check_rest(stiffness: &DMatrix<f64>, torques: &[f64]) -> Result<()
     }
     let rows = stiffness.row_iter().map(|row| row.amax());
     let left = torques.iter().zip(rows).map(|(torque, stiffest)| {
-        // NaN is no rest.
+        // False for NaN too.
         let is_small = torque.abs() <= MISSED * stiffest;
         if is_small { 0.0 } else { torque.abs() }
     });
@@ -236,18 +238,18 @@ pub(super) fn symmetric_matrix<R: AsRef<[f64]>>(
 }
 
 errors! {
-    /// Why a system has no linear modes.
+    /// Reason why a system has no linear modes.
     #[derive(Clone, Debug, PartialEq)]
     #[non_exhaustive]
     pub enum ModesError {
         /// A matrix has no rows.
         Empty {
-            /// `"mass"` or `"stiffness"`.
+            /// Name of the matrix: `"mass"` or `"stiffness"`.
             matrix: &'static str,
         } => "the {matrix} matrix has no rows",
-        /// A row has not as many entries as the matrix has rows.
+        /// The number of entries in a row is not the number of rows.
         NotSquare {
-            /// `"mass"` or `"stiffness"`.
+            /// Name of the matrix: `"mass"` or `"stiffness"`.
             matrix: &'static str,
             /// Number of rows.
             rows: usize,
@@ -258,54 +260,55 @@ errors! {
         } => "the {matrix} matrix is not square: {rows} rows, but {columns} entries in row {row}",
         /// An entry is infinite or NaN.
         NotFinite {
-            /// `"mass"` or `"stiffness"`.
+            /// Name of the matrix: `"mass"` or `"stiffness"`.
             matrix: &'static str,
             /// Index of the row.
             row: usize,
             /// Index of the column.
             column: usize,
-            /// The entry.
+            /// Value of the entry.
             value: f64,
         } => "entry ({row}, {column}) of the {matrix} matrix is {value}",
-        /// An entry differs from its mirror image by more than rounding.
+        /// The matrix is not symmetric: an entry differs from the transposed one by more than
+        /// rounding.
         NotSymmetric {
-            /// `"mass"` or `"stiffness"`.
+            /// Name of the matrix: `"mass"` or `"stiffness"`.
             matrix: &'static str,
             /// Index of the row.
             row: usize,
             /// Index of the column.
             column: usize,
         } => "the {matrix} matrix is not symmetric at ({row}, {column})",
-        /// Mass and stiffness matrix differ in size.
+        /// The mass matrix and the stiffness matrix have different sizes.
         SizeMismatch {
-            /// Rows of the mass matrix.
+            /// Number of rows of the mass matrix.
             mass: usize,
-            /// Rows of the stiffness matrix.
+            /// Number of rows of the stiffness matrix.
             stiffness: usize,
         } => "the mass matrix has {mass} rows and the stiffness matrix {stiffness}",
-        /// There are not as many torques as coordinates.
+        /// The number of torques is not the number of coordinates.
         Torques {
             /// Number of torques.
             torques: usize,
-            /// Rows of the matrices.
+            /// Number of rows of the matrices.
             rows: usize,
-        } => "{torques} torques for matrices of {rows} rows",
-        /// Angles that are no equilibrium: torques act there on a system at rest.
+        } => "got {torques} torques for matrices with {rows} rows: the numbers must be equal",
+        /// The angles are not an equilibrium: torques act on the system at rest.
         NotAtRest {
-            /// Index of the coordinate on which the largest of them acts.
+            /// Index of the coordinate on which the largest torque acts.
             coordinate: usize,
             /// The largest torque, N m.
             torque: f64,
             /// Torques on all coordinates, N m.
             torques: Vec<f64>,
-        } => "the angles are no equilibrium: a torque of {torque} N m acts on coordinate \
-            {coordinate} at rest. Take the angles that `equilibrium` finds near them",
-        /// Some motion has no inertia.
+        } => "the angles are not an equilibrium: at rest, a torque of {torque} N m acts on \
+            coordinate {coordinate}. Use the angles that `equilibrium` finds near them",
+        /// The mass matrix is not positive definite: some motion has no inertia.
         MassNotPositiveDefinite => "the mass matrix is not positive definite: some motion has no \
             inertia",
-        /// The equilibrium is unstable.
+        /// The equilibrium is unstable: the stiffness matrix is negative in some direction.
         NegativeStiffness {
-            /// The eigenvalue λ of K x = λ M x, in 1/s².
+            /// The negative eigenvalue λ of K x = λ M x, 1/s².
             eigenvalue: f64,
         } => "the equilibrium is unstable: a squared angular frequency is {eigenvalue} 1/s^2",
         /// The eigenvalue iteration did not converge.

@@ -1,7 +1,7 @@
-//! Random numbers that are the same on every machine. Of its own, so that users of
-//! committed code build no further package for these lines.
+//! Random numbers that are the same on every machine. They are implemented here so that users of
+//! committed code need no further package.
 
-/// SplitMix64 (G. L. Steele, D. Lea and C. H. Flood, *Fast splittable
+/// The random generator SplitMix64 (G. L. Steele, D. Lea and C. H. Flood, *Fast splittable
 /// pseudorandom number generators*, OOPSLA 2014).
 #[derive(Clone, Debug)]
 pub(crate) struct Random(u64);
@@ -11,9 +11,9 @@ impl Random {
         Self(seed)
     }
 
-    /// Uniform between `-bound` and `bound`.
+    /// Returns a uniform random number between `-bound` and `bound`.
     pub(crate) fn within(&mut self, bound: f64) -> f64 {
-        // The upper 53 bits are a whole number that f64 holds exactly.
+        // The upper 53 bits are a whole number that f64 represents exactly.
         let unit = (self.next() >> 11) as f64 / (1_u64 << 53) as f64;
         bound * (2.0 * unit - 1.0)
     }

@@ -1,23 +1,21 @@
-//! The blocks into which an in-phase equilibrium splits the linear motion.
+//! Splits the linear motion about an in-phase equilibrium into blocks, one for each sector.
 //!
-//! Where all copies of a subtree stand alike, mass and stiffness matrix couple
-//! no two sectors: in the coordinates of [`Sectors::sectors`] each sector has a
-//! mass matrix, a stiffness matrix and linear modes of its own, and the modes
-//! of all sectors together are those of the tree. (A full binary tree of g
-//! generations has one sector of g coordinates and 2^(g−1−s) of s each for
-//! s = 1 to g − 1.)
+//! A sector is a set of coordinates between which and all others the tree's symmetry forbids linear
+//! coupling. If all copies of a subtree have equal angles, the mass and stiffness matrices do not
+//! couple sectors: in the coordinates of [`Sectors::sectors`] each sector has its own mass matrix,
+//! stiffness matrix and linear modes, and the modes of all sectors together are those of the tree.
+//! (A full binary tree of g generations has one sector of g coordinates and 2^(g−1−s) sectors of s
+//! coordinates each, for s = 1 to g − 1.)
 //!
 //! # Normalisation
 //!
 //! A link's angle is Σ weight · coordinate. In the *plain* normalisation of
-//! [`SectorCoordinate::weights`] the coordinates are means and (for two copies,
-//! half) differences: q_j = Σ_i weight_ij θ_i / norm_j with norm_j = Σ_i
-//! weight_ij² ([`SectorCoordinate::norm`]). The *orthonormal* coordinates are
-//! x_j = √norm_j · q_j. These are the image of the angles under a rotation, so
-//! that squares sum: Σ x_j² = Σ θ_i². Momenta go the other way, by 1/√norm_j,
-//! and entry (j, k) of a matrix by 1/√(norm_j norm_k). Frequencies do not
-//! depend on the choice; sizes of entries in different blocks compare in the
-//! orthonormal one only, which is why the blocks here use it.
+//! [`SectorCoordinate::weights`] the coordinates are means and (for two copies, half) differences:
+//! q_j = Σ_i weight_ij θ_i / norm_j with norm_j = Σ_i weight_ij² ([`SectorCoordinate::norm`]). The
+//! *orthonormal* coordinates are x_j = √norm_j · q_j. These are a rotation of the angles, so that Σ
+//! x_j² = Σ θ_i². Momenta are multiplied by 1/√norm_j, and entry (j, k) of a matrix by 1/√(norm_j
+//! norm_k). Frequencies do not depend on the choice; sizes of entries in different blocks can be
+//! compared in the orthonormal coordinates only, which is why the blocks here use them.
 //!
 //! [`Sectors::sectors`]: crate::Sectors::sectors
 
@@ -32,52 +30,52 @@ use crate::sectors::{Sector, SectorCoordinate};
 pub struct SectorBlock {
     /// Name of the sector.
     pub name: String,
-    /// Names of its coordinates, in the order of rows and columns.
+    /// Names of the sector's coordinates, in the order of rows and columns.
     pub coordinates: Vec<String>,
-    /// Block of the mass matrix by rows, kg m².
+    /// Block of the mass matrix, row by row, kg m².
     pub mass: Vec<Vec<f64>>,
-    /// Block of the stiffness matrix by rows, N m/rad.
+    /// Block of the stiffness matrix, row by row, N m/rad.
     pub stiffness: Vec<Vec<f64>>,
-    /// Modes within the block. Their shapes are in orthonormal coordinates:
-    /// divided by the root of a coordinate's norm, a component is that of the
-    /// plain coordinate.
+    /// Linear modes within the block. Their shapes are in orthonormal coordinates: a component
+    /// divided by the square root of its coordinate's norm is the component in the plain
+    /// coordinate.
     pub modes: Modes,
 }
 
-/// The block structure of a tree about an in-phase equilibrium.
+/// Blocks of a tree's mass and stiffness matrices about an in-phase equilibrium, with the modes of
+/// each.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SectorModes {
-    /// One block for each sector, in their order.
+    /// The blocks, one for each sector, in the order of the sectors.
     pub blocks: Vec<SectorBlock>,
-    /// Largest absolute entry of the mass matrix between two sectors, over the
-    /// largest of all entries, both in orthonormal coordinates: rounding where
-    /// the equilibrium is in phase.
+    /// Largest absolute entry of the mass matrix between two sectors, over the largest of all
+    /// entries, both in orthonormal coordinates. It is only rounding if the equilibrium is in
+    /// phase.
     pub mass_off_block: f64,
-    /// Largest absolute entry of the stiffness matrix between two sectors, over
-    /// the largest of all; zero where that is zero.
+    /// Largest absolute entry of the stiffness matrix between two sectors, divided by the largest
+    /// of all its entries; zero if all entries are zero.
     pub stiffness_off_block: f64,
 }
 
 impl SectorModes {
-    /// Splits `mass` (kg m²) and `stiffness` (N m/rad), both by rows and for
-    /// absolute angles at an in-phase equilibrium, into the blocks of `sectors`.
+    /// Splits `mass` (kg m²) and `stiffness` (N m/rad), both row by row and for absolute angles at
+    /// an in-phase equilibrium, into the blocks of `sectors`.
     ///
-    /// Entries between sectors are left out of the blocks and reported as
-    /// [`mass_off_block`](Self::mass_off_block) and
-    /// [`stiffness_off_block`](Self::stiffness_off_block): look at them where
-    /// the equilibrium might not be in phase. Whether the angles are an equilibrium
-    /// at all, [`AtRest::sector_modes`](super::AtRest::sector_modes) asks. Effort grows as n³ with n links.
+    /// Entries between sectors are left out of the blocks; [`mass_off_block`](Self::mass_off_block)
+    /// and [`stiffness_off_block`](Self::stiffness_off_block) report them: check these if the
+    /// equilibrium might not be in phase. [`AtRest::sector_modes`](super::AtRest::sector_modes)
+    /// also checks that the angles are an equilibrium. The effort grows as n³ with n links.
     ///
     /// # Errors
     ///
-    /// [`SectorModesError`] if the matrices are not square, finite and symmetric
-    /// of one size, if the sectors' coordinates are not an orthogonal basis for
-    /// that many links, or if a block has no modes.
+    /// [`SectorModesError`] if the matrices are not square, finite and symmetric of one size, if
+    /// the sectors' coordinates are not an orthogonal basis for that number of links, or if a block
+    /// has no modes.
     ///
     /// # Examples
     ///
-    /// The pendulum of the paper: two modes in phase and one antiphase mode, in
-    /// which the parent rests.
+    /// The pendulum of the paper has two modes in phase and one antiphase mode, in which the parent
+    /// stays at rest.
     ///
     #[cfg_attr(feature = "macros", doc = "```")]
     #[cfg_attr(not(feature = "macros"), doc = "```ignore")]
@@ -149,7 +147,7 @@ impl SectorModes {
         })
     }
 
-    /// Frequencies of all blocks in hertz, ascending: those of the whole tree.
+    /// Returns the frequencies (Hz) of all blocks, ascending: those of the whole tree.
     #[must_use]
     pub fn frequencies_hz(&self) -> Vec<f64> {
         let blocks = self.blocks.iter();
@@ -161,11 +159,12 @@ impl SectorModes {
     }
 }
 
-/// Cosine of the angle between two coordinates above which they are refused as
-/// not orthogonal: rounding of the weights leaves far less.
+/// Largest cosine of the angle between two coordinates that still count as orthogonal; rounding of
+/// the weights causes far less.
 const SKEWNESS: f64 = 1e-12;
 
-/// One column for each coordinate, sector after sector.
+/// Returns the matrix Q of the orthonormal coordinates: one column per coordinate, sector by
+/// sector.
 fn orthonormal_basis(sectors: &[Sector], links: usize) -> Result<DMatrix<f64>, SectorModesError> {
     let coordinates: Vec<&SectorCoordinate> =
         sectors.iter().flat_map(Sector::coordinates).collect();
@@ -204,7 +203,7 @@ fn orthonormal_basis(sectors: &[Sector], links: usize) -> Result<DMatrix<f64>, S
     Ok(basis)
 }
 
-/// Qᵀ A Q, symmetric to the last bit.
+/// Returns Qᵀ A Q for Q = `basis` and A = `matrix`, made exactly symmetric.
 fn in_coordinates(basis: &DMatrix<f64>, matrix: &DMatrix<f64>) -> DMatrix<f64> {
     let whole = basis.transpose() * matrix * basis;
     (&whole + whole.transpose()) * 0.5
@@ -234,47 +233,49 @@ fn off_block(matrix: &DMatrix<f64>, sectors: &[Sector]) -> f64 {
 }
 
 errors! {
-    /// Why a tree has no modes sector by sector.
+    /// Reason why the modes of a tree cannot be computed sector by sector.
     #[derive(Clone, Debug, PartialEq)]
     #[non_exhaustive]
     pub enum SectorModesError {
-        /// Mass or stiffness matrix is not what it must be.
+        /// The mass matrix or the stiffness matrix is invalid.
         Matrices(error: ModesError) => "the matrices cannot be split into sectors",
-        /// The sectors have not as many coordinates as the matrices have rows.
+        /// The number of coordinates of the sectors is not the number of rows of the matrices.
         Count {
-            /// Coordinates of all sectors.
+            /// Number of coordinates in all sectors.
             coordinates: usize,
-            /// Rows of the matrices, one for each link.
+            /// Number of rows of the matrices, one for each link.
             links: usize,
-        } => "the sectors have {coordinates} coordinates and the matrices {links} rows",
-        /// The weights of a coordinate are all zero, or not finite.
+        } => "the sectors have {coordinates} coordinates, but the matrices have {links} rows: \
+            the numbers must be equal",
+        /// The weights of a coordinate are all zero, or one is not finite.
         Weights {
-            /// The coordinate.
+            /// Name of the coordinate.
             coordinate: String,
         } => "the weights of `{coordinate}` are zero or not finite",
-        /// A coordinate weighs a link that the matrices lack.
+        /// A coordinate has a weight for a link that is not in the matrices.
         Link {
-            /// The coordinate.
+            /// Name of the coordinate.
             coordinate: String,
             /// Index of the link.
             link: usize,
-            /// Rows of the matrices.
+            /// Number of rows of the matrices.
             links: usize,
-        } => "`{coordinate}` weighs link {link}, but the matrices have {links} rows",
+        } => "coordinate `{coordinate}` has a weight for link {link}, but the matrices have only \
+            {links} rows",
         /// Two coordinates are not orthogonal.
         NotOrthogonal {
-            /// The one.
+            /// Name of the first coordinate.
             first: String,
-            /// The other.
+            /// Name of the second coordinate.
             second: String,
-        } => "`{first}` and `{second}` are not orthogonal",
+        } => "the coordinates `{first}` and `{second}` are not orthogonal",
         /// A block has no modes.
         Sector {
             /// Name of the sector.
             sector: String,
-            /// Why.
+            /// Reason why the block has no modes.
             source: ModesError,
-        } => "the sector `{sector}` has no linear modes",
+        } => "the linear modes of sector `{sector}` could not be computed",
     }
 }
 
@@ -288,7 +289,10 @@ impl core::error::Error for SectorModesError {
     fn source(&self) -> Option<&(dyn core::error::Error + 'static)> {
         match self {
             Self::Matrices(source) | Self::Sector { sector: _, source } => Some(source),
-            _ => None,
+            Self::Count { .. }
+            | Self::Weights { .. }
+            | Self::Link { .. }
+            | Self::NotOrthogonal { .. } => None,
         }
     }
 }

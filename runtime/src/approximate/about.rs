@@ -1,4 +1,4 @@
-//! The linear model of a model.
+//! Linear model of small motions, derived from a compiled model of a tree.
 
 use alloc::vec;
 use alloc::vec::Vec;
@@ -11,18 +11,20 @@ use super::slopes::RestSlopes;
 use crate::scalar::Dual;
 use crate::system::{Energy, Pendulum, Workspace};
 
-/// Errors of matrices that come from accelerations, relative.
+/// Relative rounding error of matrices that are derived from accelerations.
 const ROUNDING: f64 = 1e-10;
 
 impl Linear {
-    /// The model of small motions about the equilibrium next to the angles `near` (rad),
-    /// with the errors that it has there: each mode alone is followed for a second at
-    /// two small amplitudes, by this model and by the full one.
+    /// Returns the linear model of small motions about the equilibrium closest to the angles `near`
+    /// (rad).
+    ///
+    /// It also measures the error of each mode, by computing the motion of the mode alone for one
+    /// second at two small amplitudes with the linear and the full model.
     ///
     /// # Errors
     ///
-    /// [`LinearError`], if there is no equilibrium at which torques depend on angles and
-    /// rates in the symmetric way of springs and friction.
+    /// Returns [`LinearError`] if no equilibrium is found, or if torques there do not depend on
+    /// angles and rates in the symmetric way of springs and friction.
     pub fn about<P>(model: &P, near: &[f64]) -> Result<Self, LinearError>
     where
         P: Pendulum<f64>,
@@ -53,7 +55,8 @@ impl Linear {
     }
 }
 
-/// The mass matrix: ∂K/∂ω_i at the rates that have one at link j alone.
+/// Returns the mass matrix (kg m²): entry (i, j) is the derivative ∂K/∂ω_i of the kinetic energy K
+/// if only link j rotates, at 1 rad/s.
 fn mass(model: &impl Energy<Dual<f64, 1>>, angles: &[f64]) -> PreciseMatrix {
     let n = angles.len();
     let constant = |&angle: &f64| Dual::<f64, 1>::constant(angle);

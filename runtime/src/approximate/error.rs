@@ -1,49 +1,47 @@
-//! Why there is no linear model.
+//! Errors in the construction of a linear model of small motions.
 
 use crate::errors::errors;
 
 errors! {
-    /// Reason for which a system has no [`Linear`](super::Linear) model.
+    /// Reason why the [`Linear`](super::Linear) model of a system cannot be built.
     #[derive(Clone, Debug, PartialEq)]
     #[non_exhaustive]
     pub enum LinearError {
-        /// A matrix or a state has not as many rows as the system has links.
+        /// The number of rows of a matrix, or the length of a vector, is not the number of links.
         Length {
-            /// `"near"`, `"mass"`, `"stiffness"` or `"damping"`.
+            /// Name of the matrix or vector: `"near"`, `"mass"`, `"stiffness"` or `"damping"`.
             name: &'static str,
             /// Number of links.
             expected: usize,
-            /// Number of rows, or of entries in one of them.
+            /// Number of rows found, or of entries in one of the rows.
             found: usize,
         } => "`{name}` has {found} numbers for {expected} links",
-        /// More links than a model of dense matrices is for.
+        /// The system has more links than dense matrices can handle.
         Size {
             /// Number of links.
             links: usize,
-            /// The largest number that there may be.
+            /// The largest number of links that is accepted.
             most: usize,
-        } => "{links} links are too many for a linear model, which takes at most {most}: reduce \
-            the tree by `in_phase(…)`",
-        /// A number is infinite or NaN: of a matrix, or an acceleration near the
-        /// equilibrium.
-        NotFinite => "a number of the model is infinite or NaN",
-        /// The stiffness is singular on the way to an equilibrium, or no step of the search
-        /// comes near one.
-        NoEquilibrium => "no equilibrium was found: start nearer to one, at time 0",
-        /// Some motion has no inertia.
+        } => "{links} links are too many for a linear model, which can have at most {most}: \
+            reduce the tree by `in_phase(…)`",
+        /// An entry of a matrix, or an acceleration near the equilibrium, is infinite or NaN.
+        NotFinite => "the matrices or accelerations of the model contain an infinite number or NaN",
+        /// The search for an equilibrium met a singular stiffness matrix, or did not converge.
+        NoEquilibrium => "found no equilibrium: start nearer to one, at time 0",
+        /// The mass matrix is not positive definite: some motion has no inertia.
         MassNotPositiveDefinite => "the mass matrix is not positive definite: some motion has no \
             inertia",
-        /// Torques on two links do not depend on each other's angles or rates alike: such a
-        /// system is no tree with springs and friction.
+        /// The derivatives of the torques by angles or by velocities are not symmetric: the system
+        /// is not a tree with springs and friction.
         NotSymmetric {
-            /// `"stiffness"` or `"damping"`.
+            /// Name of the matrix that is not symmetric: `"stiffness"` or `"damping"`.
             matrix: &'static str,
         } => "the {matrix} matrix is not symmetric",
-        /// A frame is not positive and finite.
+        /// The length of a frame is not positive and finite.
         Frame {
             /// Length of the frame, s.
             value: f64,
-        } => "a frame of {value} s is not positive and finite",
+        } => "the length of a frame is {value} s: it must be positive and finite",
     }
 }
 

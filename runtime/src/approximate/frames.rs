@@ -1,4 +1,4 @@
-//! The linear model, frame by frame.
+//! Exact propagation of the linear model, frame by frame.
 
 use alloc::vec;
 use alloc::vec::Vec;
@@ -9,65 +9,68 @@ use super::matrix::PreciseMatrix;
 use super::{Approximation, ForcedApproximation};
 use crate::scalar::{Double, Real, Scalar};
 
-/// A [`Linear`] model with its exact propagation by frames of one length.
+/// A [`Linear`] model with its exact propagation over frames of one length.
 ///
-/// [`step`](Approximation::step) moves a full state. For many frames it is cheaper to
-/// leave the motion in modes: [`set_state`](Self::set_state) once,
-/// [`advance`](Self::advance) for each frame, and angles or the whole state where they
-/// are looked at.
+/// [`step`](Approximation::step) advances a full state by one frame. For many frames it is cheaper
+/// to keep the motion in modes: call [`set_state`](Self::set_state) once,
+/// [`advance`](Self::advance) for each frame, and read angles or the whole state when they are
+/// needed.
 ///
-/// Cost, in products, for m modes of n links: a frame takes 4b² for each group of b
-/// modes that friction couples, so 4m where it couples none, and 4m² at most; angles
-/// take mn, states two times as many each way; torques mn and 2b² a group. Nothing is
+/// Number of multiplications for m modes of n links: a frame takes 4b² for each group of b modes
+/// that friction couples: 4m if no modes are coupled, at most 4m². Reading the angles takes mn;
+/// setting or reading a state takes 2mn; torques take mn, and 2b² for each group. Nothing is
 /// allocated after construction.
 ///
-/// Without friction and torques the energy of the model stays, but for rounding.
+/// Without friction and torques, the energy of the model is conserved to rounding.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LinearFrames<T> {
     frame: T,
     links: usize,
     equilibrium: Vec<T>,
     groups: Vec<CoupledModes<T>>,
-    /// Shapes of the modes that take part, in the order of the groups.
+    /// Shapes of the kept modes, in the order of the groups.
     shapes: Vec<T>,
-    /// Of all modes, those that take part first.
+    /// Projections of angles onto all modes, one row per mode; the kept modes come first.
     projections: Vec<T>,
     estimates: Vec<ModeError<T>>,
-    /// Coordinates and rates of the modes, group by group, at a frame and at the next.
+    /// Coordinates and rates of the modes, group by group, at the present frame and at the next
+    /// one.
     now: Vec<T>,
     next: Vec<T>,
     forces: Vec<T>,
 }
 
-/// Modes that friction couples.
+/// A group of modes that friction couples.
 #[derive(Clone, Debug, PartialEq)]
 struct CoupledModes<T> {
     size: usize,
-    /// Column by column: from coordinates and rates to those a frame later.
+    /// Matrix (column by column) that advances the coordinates and rates of the group by one frame.
     propagator: Vec<T>,
-    /// Column by column: from constant torques on the modes.
+    /// Matrix (column by column) from constant torques on the modes to the change of the group's
+    /// coordinates and rates in one frame.
     response: Vec<T>,
 }
 
-/// How the error of a mode is estimated.
+/// Numbers from which the error of one mode is estimated.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct ModeError<T> {
-    /// Amplitude of a rate, s.
+    /// Factor that converts a rate of the mode to an amplitude, in s.
     per_rate: T,
-    /// Largest part of an angle in the shape.
+    /// Largest absolute component of the mode's shape.
     peak: T,
-    /// Relative errors by amplitude, and by its square.
+    /// Coefficients of the relative error as a function of the amplitude: of its first and of its
+    /// second power.
     errors: [T; 2],
 }
 
 impl Linear {
-    /// Returns the model by frames of this length (s), in numbers `T`: the matrix exponential,
-    /// computed in double-double numbers and rounded once.
+    /// Prepares the model for frames of length `frame` (s), in numbers of type `T`. The matrix
+    /// exponential is computed in double-double numbers and rounded once.
     ///
     /// # Errors
     ///
-    /// [`LinearError::Frame`] if the frame is not positive and finite;
-    /// [`LinearError::NotFinite`] if the motion grows beyond all numbers in one.
+    /// [`LinearError::Frame`] if the frame is not positive and finite; [`LinearError::NotFinite`]
+    /// if the motion overflows within one frame.
     pub fn frames<T: Real>(&self, frame: f64) -> Result<LinearFrames<T>, LinearError> {
         LinearFrames::new(self, frame)
     }
@@ -123,17 +126,19 @@ impl<T: Real> LinearFrames<T> {
         })
     }
 
-    /// Number of modes that take part.
+    /// Returns the number of kept modes.
     pub fn modes(&self) -> usize {
         self.forces.len()
     }
 
-    /// Number of modes in each group that friction couples.
+    /// Iterates over the groups of modes that friction couples, and returns the number of modes in
+    /// each.
     pub fn group_sizes(&self) -> impl Iterator<Item = usize> {
         self.groups.iter().map(|group| group.size)
     }
 
-    /// Takes a full state, as far as the modes have it.
+    /// Sets the motion to a full state (angles in rad, then angular velocities in rad/s). Only its
+    /// part in the kept modes remains.
     pub fn set_state(&mut self, state: &[T]) {
         if state.len() != 2 * self.links {
             self.now.fill(T::NAN);
@@ -154,13 +159,14 @@ impl<T: Real> LinearFrames<T> {
         }
     }
 
-    /// Moves on by a frame.
+    /// Advances the motion by one frame.
     pub fn advance(&mut self) {
         self.propagate();
         core::mem::swap(&mut self.now, &mut self.next);
     }
 
-    /// Moves on by a frame under torques (N m) that stay the same during it.
+    /// Advances the motion by one frame under torques (N m) on the links that stay constant during
+    /// it.
     pub fn advance_under(&mut self, torques: &[T]) {
         if torques.len() != self.links {
             self.now.fill(T::NAN);
@@ -192,7 +198,7 @@ impl<T: Real> LinearFrames<T> {
         }
     }
 
-    /// Writes the angles, rad; NaN for another number of them than links.
+    /// Writes the angles (rad) of all links; NaN if `angles` has another length.
     pub fn angles_into(&self, angles: &mut [T]) {
         if angles.len() != self.links {
             angles.fill(T::NAN);
@@ -202,7 +208,7 @@ impl<T: Real> LinearFrames<T> {
         self.add_shapes(angles, 0);
     }
 
-    /// Writes the full state: angles, then angular velocities.
+    /// Writes the full state: angles (rad) of all links, then their angular velocities (rad/s).
     pub fn state_into(&self, state: &mut [T]) {
         if state.len() != 2 * self.links {
             state.fill(T::NAN);
@@ -214,7 +220,8 @@ impl<T: Real> LinearFrames<T> {
         self.add_shapes(omega, 1);
     }
 
-    /// Adds the shapes times coordinates (0) or rates (1).
+    /// Adds the motion of all links to `sums`: the shapes of the modes times their coordinates (if
+    /// `half` is 0) or their rates (if `half` is 1).
     fn add_shapes(&self, sums: &mut [T], half: usize) {
         let (mut now, mut shapes) = (&self.now[..], &self.shapes[..]);
         for group in &self.groups {
@@ -225,15 +232,17 @@ impl<T: Real> LinearFrames<T> {
         }
     }
 
-    /// Returns error and amplitude, rad.
+    /// Returns the estimated error of the linear model at a state, and the amplitude of the state,
+    /// both in rad.
     fn estimate(&self, state: &[T]) -> (T, T) {
         if state.len() != 2 * self.links {
             return (T::NAN, T::NAN);
         }
         let (theta, omega) = state.split_at(self.links);
         let rows = self.projections.chunks_exact(self.links);
-        // Sums of squares: of all amplitudes, of those dropped, and of those kept times
-        // their errors: E²₁, E₁E₂, E²₂.
+        // Sums of squares: `all` of all amplitudes, `dropped` of those of the modes that are left
+        // out, and `by_errors` of those of the kept modes times E₁², E₁E₂ and E₂², the coefficients
+        // of their errors.
         let (mut all, mut dropped, mut by_errors) = (T::ZERO, T::ZERO, [T::ZERO; 3]);
         for (number, (row, estimate)) in rows.zip(&self.estimates).enumerate() {
             let coordinate = product(row, theta, &self.equilibrium);
@@ -294,7 +303,8 @@ impl<T: Real> ForcedApproximation<T> for LinearFrames<T> {
 impl<T: Real> ModeError<T> {
     fn new(linear: &Linear, mode: usize) -> Self {
         let square = linear.squares[mode].high().abs();
-        // A mode slower than the second that counts goes as far as its rate takes it.
+        // A mode with ω < 1/s moves during the one second of the estimate about as far as its rate
+        // takes it.
         let per_rate = 1.0 / Real::max(Scalar::sqrt(square), 1.0);
         let shape = (0..linear.equilibrium.len()).map(|link| linear.shapes.at(link, mode).high());
         let peak = shape.fold(0.0, |peak, part| Real::max(peak, part.abs()));
@@ -306,8 +316,8 @@ impl<T: Real> ModeError<T> {
     }
 }
 
-/// Σ row (values − origin), an origin without entries being zero; in eight sums, for
-/// vector registers.
+/// Returns Σ row · (values − origin); an empty origin counts as zero. It adds in eight partial
+/// sums, for vector registers.
 #[inline]
 fn product<T: Real>(row: &[T], values: &[T], origin: &[T]) -> T {
     let mut sums = [T::ZERO; 8];
@@ -328,7 +338,7 @@ fn product<T: Real>(row: &[T], values: &[T], origin: &[T]) -> T {
     sums.into_iter().fold(T::ZERO, |sum, part| sum + part)
 }
 
-/// Adds columns times factors, four at a time: one pass over the sums for four columns.
+/// Adds the columns, each multiplied by its factor, to `sums`, four columns in each pass.
 #[inline]
 fn add_columns<T: Real>(sums: &mut [T], columns: &[T], factors: &[T]) {
     let rows = sums.len();

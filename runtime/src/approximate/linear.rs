@@ -1,4 +1,4 @@
-//! Small motions in modes.
+//! Linear model of small motions about an equilibrium, computed in modes.
 
 use alloc::vec::Vec;
 
@@ -6,17 +6,18 @@ use super::error::LinearError;
 use super::matrix::{PreciseMatrix, largest, number};
 use crate::scalar::{Double, Real, Scalar};
 
-/// The linear model of small motions about an equilibrium: M q̈ + C q̇ + K q = Q with
-/// masses M, friction and drag C, stiffness K of gravity and springs, and torques Q.
+/// The linear model of small motions about an equilibrium: M q̈ + C q̇ + K q = Q with the mass
+/// matrix M, the matrix C of friction and drag, the stiffness matrix K of gravity and springs, and
+/// torques Q.
 ///
-/// Motions are in the modes of M and K without friction. Friction couples those that it
-/// must: modes in different sectors of a symmetric tree are not, nor is any where
-/// friction is everywhere in proportion to mass or stiffness. All numbers are kept to
-/// 30 digits until [`frames`](Self::frames) rounds them. Effort of construction and of
-/// `frames` grows with the third power of the number of links, of which there may be
-/// 1,000: a tenth of a second for 31.
+/// Motions are computed in the modes of M and K without friction. Friction couples some of the
+/// modes: never modes in different sectors of a symmetric tree (sets of coordinates between which
+/// its symmetry forbids linear coupling), and none if friction is proportional to mass or
+/// stiffness. All numbers are kept to 30 digits until [`frames`](Self::frames) rounds them. The
+/// effort of construction and of `frames` grows with the third power of the number of links: a
+/// tenth of a second for 31 links. At most 1,000 links are accepted.
 ///
-/// The model is of time 0: a drive that moves later is left out.
+/// The model holds at time 0: a drive that starts later is left out.
 ///
 /// # Examples
 ///
@@ -59,34 +60,36 @@ use crate::scalar::{Double, Real, Scalar};
 #[derive(Clone, Debug, PartialEq)]
 pub struct Linear {
     pub(super) equilibrium: Vec<f64>,
-    /// ω² of the modes, ascending.
+    /// Squared angular frequencies ω² (1/s²) of the modes, ascending.
     pub(super) squares: Vec<Double>,
-    /// Shapes of the modes in columns, of modal mass 1.
+    /// Shapes of the modes, one per column, normalised to modal mass 1.
     pub(super) shapes: PreciseMatrix,
-    /// Shapes times masses, a mode a row: what turns angles into modes.
+    /// Transposed shapes times the mass matrix, one row per mode: the matrix that converts angles
+    /// to mode coordinates.
     pub(super) projections: PreciseMatrix,
-    /// Friction between modes.
+    /// Friction matrix in mode coordinates.
     pub(super) damping: PreciseMatrix,
-    /// Friction below this, relative to the largest, is rounding.
+    /// Size, relative to the largest entry, below which an entry of the friction matrix counts as
+    /// rounding.
     pub(super) rounding: f64,
-    /// Number of modes that take part.
+    /// Number of kept modes, which are the slowest ones.
     pub(super) kept: usize,
-    /// Measured error of each mode: see `measured`.
+    /// Measured error coefficients E₁ and E₂ of each mode, defined in `measured`.
     pub(super) errors: Vec<[f64; 2]>,
 }
 
-/// Most links: matrices of so many rows take hours.
+/// Largest accepted number of links; larger matrices would take hours.
 const MOST_LINKS: usize = 1000;
 
 impl Linear {
-    /// The model with these matrices, row by row: masses (kg m²), stiffness (N m/rad) and
-    /// friction (N m s/rad), for coordinates that are zero at the equilibrium. What they
-    /// describe is linear: no error is told.
+    /// Returns the model with these matrices, given row by row: mass (kg m²), stiffness (N m/rad)
+    /// and friction (N m s/rad), for coordinates that are zero at the equilibrium. The system is
+    /// assumed to be linear, so the estimated errors of its modes are zero.
     ///
     /// # Errors
     ///
-    /// [`LinearError`] if they are not square, finite and symmetric, or if the masses are
-    /// not positive definite.
+    /// [`LinearError`] if the matrices are not square, finite and symmetric, or if the mass matrix
+    /// is not positive definite.
     pub fn of_matrices<R: AsRef<[f64]>>(
         mass: &[R],
         stiffness: &[R],
@@ -116,7 +119,8 @@ impl Linear {
         Self::new(alloc::vec![0.0; n], matrices, f64::EPSILON)
     }
 
-    /// From mass, stiffness and damping of not too many links, whose entries have errors of `rounding`.
+    /// Returns the model from the matrices of mass, stiffness and damping, whose entries have
+    /// relative errors of `rounding`. The caller has checked the number of links.
     pub(super) fn new(
         equilibrium: Vec<f64>,
         [mass, stiffness, damping]: [PreciseMatrix; 3],
@@ -132,7 +136,7 @@ impl Linear {
         let lower = mass
             .cholesky()
             .ok_or(LinearError::MassNotPositiveDefinite)?;
-        // L⁻¹ K L⁻ᵀ
+        // L⁻¹ K L⁻ᵀ, with M = L Lᵀ.
         let half = lower.solve_lower(stiffness).transposed();
         let (squares, vectors) = lower.solve_lower(half).eigen();
         let shapes = lower.solve_upper(vectors);
@@ -154,14 +158,14 @@ impl Linear {
         })
     }
 
-    /// Angles of the equilibrium, rad.
+    /// Returns the angles of the equilibrium, rad.
     #[must_use]
     pub fn equilibrium(&self) -> &[f64] {
         &self.equilibrium
     }
 
-    /// Eigenfrequencies of the modes that take part, without friction, ascending, Hz.
-    /// Zero for those of an unstable equilibrium that grow.
+    /// Returns the eigenfrequencies (Hz) of the kept modes without friction, in ascending order.
+    /// For a mode that grows, about an unstable equilibrium, it is 0.
     #[must_use]
     pub fn frequencies_hz(&self) -> Vec<f64> {
         let frequency = |square: &Double| Real::max(square.high(), 0.0);
@@ -171,15 +175,15 @@ impl Linear {
             .collect()
     }
 
-    /// Time (s) in which errors of the mode that friction lets live longest add up:
-    /// 1/(2δ) where its amplitude decays as exp(−δ t), and with it the errors that it
-    /// makes. Infinite without friction; of modes that friction couples, an estimate.
+    /// Returns the time (s) over which errors accumulate. It is 1/(2δ) for the mode with the
+    /// slowest decay, whose amplitude decays as exp(−δ t) together with its errors. It is infinite
+    /// without friction, and only an estimate if friction couples modes.
     #[must_use]
     pub fn fading_time(&self) -> f64 {
         (0..self.kept).fold(0.0, |longest, mode| {
             let half = 0.5 * self.damping.at(mode, mode).high();
             let rest = half * half - self.squares[mode].high();
-            // Of two real rates the smaller one.
+            // The smaller of the two decay rates of an overdamped mode.
             let decay = half - Scalar::sqrt(Real::max(rest, 0.0));
             let time = if decay > 0.0 {
                 0.5 / decay
@@ -190,8 +194,8 @@ impl Linear {
         })
     }
 
-    /// The model without the modes above a frequency (Hz). Friction between them and
-    /// those that stay is left out with them.
+    /// Returns the model without the modes above the frequency `highest_hz` (Hz). Friction that
+    /// couples them to the kept modes is dropped too.
     #[must_use]
     pub fn truncate(&self, highest_hz: f64) -> Self {
         let frequencies = self.frequencies_hz();
@@ -202,15 +206,15 @@ impl Linear {
         }
     }
 
-    /// Energy (J) of a state, of all modes, from the equilibrium: kinetic and potential,
-    /// to second order. NaN for a state of another length.
+    /// Returns the energy (J) of a state in all modes, relative to the equilibrium: kinetic and
+    /// potential, to second order. NaN for a state of a wrong length.
     #[must_use]
     pub fn energy(&self, state: &[f64]) -> f64 {
         self.energy_of(0..self.squares.len(), state)
     }
 
-    /// Energy (J) that a state has in the modes that [`truncate`](Self::truncate) has
-    /// left out.
+    /// Returns the energy (J) of a state in the modes that [`truncate`](Self::truncate) has left
+    /// out.
     #[must_use]
     pub fn dropped_energy(&self, state: &[f64]) -> f64 {
         self.energy_of(self.kept..self.squares.len(), state)
@@ -233,7 +237,8 @@ impl Linear {
         })
     }
 
-    /// The modes that take part, in groups that friction couples.
+    /// Returns the indices of the kept modes, grouped so that friction couples only modes within a
+    /// group.
     pub(super) fn groups(&self) -> Vec<Vec<usize>> {
         let negligible = self.rounding * self.damping.size();
         let mut open: Vec<usize> = (0..self.kept).collect();
@@ -255,12 +260,13 @@ impl Linear {
         groups
     }
 
-    /// exp(A h) of a group of modes, and its answer to constant torques on them. States
-    /// are the coordinates of the group, followed by their rates.
+    /// Returns exp(A h) for a group of modes, with the matrix A of its equations and the length h
+    /// (s) of a frame, and the matrix of its response to constant torques on the modes. States
+    /// consist of the coordinates of the group, then their rates.
     pub(super) fn propagator(&self, group: &[usize], frame: f64) -> (PreciseMatrix, PreciseMatrix) {
         let size = group.len();
-        // Coordinates times their frequencies: then all have the size of the rates, and
-        // the norm of A is as small as it can be.
+        // Coordinates times their frequencies: they then have the size of the rates, and the norm
+        // of A is as small as it can be.
         let scale = |k: usize| {
             let square = self.squares[group[k]].high().abs();
             Real::max(Scalar::sqrt(square), 1e-3 / frame)
@@ -289,7 +295,7 @@ impl Linear {
     }
 }
 
-/// Passes numbers of links whose matrices can be handled.
+/// Returns an error if matrices for this number of links would be too large.
 pub(super) fn check_size(links: usize) -> Result<(), LinearError> {
     if links > MOST_LINKS {
         return Err(LinearError::Size {

@@ -1,11 +1,11 @@
-//! Square matrices in double-double numbers, small ones.
+//! Small square matrices of double-double numbers.
 
 use alloc::vec::Vec;
 
 use super::error::LinearError;
 use crate::scalar::{Double, Scalar};
 
-/// A matrix, row by row.
+/// A square matrix, stored row by row.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct PreciseMatrix {
     columns: usize,
@@ -59,12 +59,13 @@ impl PreciseMatrix {
         &self.entries
     }
 
-    /// Largest absolute value of an entry.
+    /// Returns the largest absolute value of an entry of the matrix.
     pub(super) fn size(&self) -> f64 {
         largest(&self.entries)
     }
 
-    /// The mean with the transposed matrix, which must be the same but for rounding.
+    /// Returns the mean of the matrix and its transpose, which may differ only by rounding. The
+    /// error names `matrix`, the kind of matrix.
     pub(super) fn symmetrised(&self, matrix: &'static str) -> Result<Self, LinearError> {
         let limit = ASYMMETRY * self.size();
         let n = self.columns;
@@ -111,7 +112,8 @@ impl PreciseMatrix {
         product
     }
 
-    /// The lower triangle L of L Lᵀ, none where the matrix is not positive definite.
+    /// Returns the Cholesky factor: the lower triangle L with L Lᵀ equal to this matrix. `None` if
+    /// the matrix is not positive definite.
     pub(super) fn cholesky(&self) -> Option<Self> {
         let n = self.columns;
         let mut lower = Self::new(n, n, |_, _| number(0.0));
@@ -132,7 +134,7 @@ impl PreciseMatrix {
         Some(lower)
     }
 
-    /// L⁻¹ B, with this matrix as the lower triangle L.
+    /// Returns L⁻¹ B for B = `right`, where L is the lower triangle of this matrix.
     pub(super) fn solve_lower(&self, mut right: Self) -> Self {
         for row in 0..self.columns {
             for k in 0..row {
@@ -143,7 +145,7 @@ impl PreciseMatrix {
         right
     }
 
-    /// L⁻ᵀ B, with this matrix as the lower triangle L.
+    /// Returns L⁻ᵀ B for B = `right`, where L is the lower triangle of this matrix.
     pub(super) fn solve_upper(&self, mut right: Self) -> Self {
         for row in (0..self.columns).rev() {
             for k in row + 1..self.columns {
@@ -154,7 +156,7 @@ impl PreciseMatrix {
         right
     }
 
-    /// Subtracts a multiple of one row from another.
+    /// Subtracts `factor` times row `other` from row `row`.
     fn take_row(&mut self, row: usize, factor: Double, other: usize) {
         for column in 0..self.columns {
             let rest = self.at(row, column) - factor * self.at(other, column);
@@ -168,12 +170,12 @@ impl PreciseMatrix {
             .for_each(|entry| *entry = *entry / divisor);
     }
 
-    /// Eigenvalues, ascending, and eigenvectors in columns of a symmetric matrix, by
-    /// Jacobi's rotations: G. H. Golub, C. F. Van Loan, *Matrix Computations*, 4th
-    /// edition, 2013, section 8.5.
+    /// Returns the eigenvalues of a symmetric matrix, ascending, and its eigenvectors in columns,
+    /// by Jacobi's rotations: G. H. Golub, C. F. Van Loan, *Matrix Computations*, 4th edition,
+    /// 2013, section 8.5.
     pub(super) fn eigen(mut self) -> (Vec<Double>, Self) {
         let n = self.columns;
-        // Vectors in rows, as rotations go over rows.
+        // Keeps the eigenvectors in rows, since rotations combine rows.
         let mut vectors = Self::identity(n);
         let negligible = 1e-30 * self.size();
         for _ in 0..MOST_SWEEPS {
@@ -213,8 +215,9 @@ impl PreciseMatrix {
         }
     }
 
-    /// exp(A h) and ∫₀ʰ exp(A s) ds B: by the series over h/2ᵏ, where the matrix is
-    /// small, and k doublings of h.
+    /// Returns exp(A h) and ∫₀ʰ exp(A s) ds B for this matrix A, h = `step` and B = `input`:
+    /// computed by the power series for h/2ᵏ, with k so large that A h/2ᵏ is small, and k
+    /// doublings.
     pub(super) fn exponential(self, step: f64, input: Self) -> (Self, Self) {
         let n = self.columns;
         let rows = (0..n).map(|row| self.row(row));
@@ -232,7 +235,8 @@ impl PreciseMatrix {
         let mut integral = input.clone().scaled(step);
         let mut term = input.scaled(step);
         for k in 1..=TERMS {
-            // Each term from the one before, divided by exact small numbers.
+            // Computes each term from the one before, divided by a small whole number, which is
+            // exact.
             power = power.times(&small);
             term = small.times(&term);
             let (number_k, next) = (number(k as f64), number((k + 1) as f64));
@@ -255,17 +259,19 @@ impl PreciseMatrix {
     }
 }
 
-/// Asymmetry, relative to the largest entry, that rounding may leave.
+/// Largest asymmetry of a matrix, relative to its largest entry, that counts as rounding.
 const ASYMMETRY: f64 = 1e-8;
 
-/// Sweeps of Jacobi's method; convergence is quadratic after the first few.
+/// Largest number of sweeps of Jacobi's method, which converges quadratically after the first few.
 const MOST_SWEEPS: usize = 60;
 
-/// Norm below which the series has [`TERMS`] terms: the next is 1e-34 of the first.
+/// Norm below which the power series is cut after [`TERMS`] terms: the next term is 1e-34 of the
+/// first.
 const SMALL: f64 = 1.0 / 64.0;
 const TERMS: usize = 13;
 
-/// Cosine and sine that make a symmetric matrix of two rows diagonal.
+/// Returns the cosine and sine of the rotation that makes the symmetric matrix \[\[a, off\], \[off,
+/// b\]\] diagonal.
 fn rotation(a: Double, b: Double, off: Double) -> (Double, Double) {
     let one = number(1.0);
     let slope = (b - a) / (off + off);
@@ -285,7 +291,7 @@ pub(super) fn number(value: f64) -> Double {
 
 pub(super) fn largest(values: &[Double]) -> f64 {
     let size = |value: &Double| value.high().abs();
-    // NaN stays, which the maximum of numbers would leave out.
+    // Keeps NaN, which `f64::max` would drop.
     values.iter().map(size).fold(0.0, |largest, value| {
         if largest.is_nan() || value <= largest {
             largest

@@ -1,4 +1,4 @@
-//! How far the linear model is from the full one.
+//! Error of the linear model, measured by comparison with the full model.
 
 use alloc::vec;
 use alloc::vec::Vec;
@@ -8,17 +8,18 @@ use super::slopes::RestSlopes;
 use crate::integrate::{Frames, longest_sub_step};
 use crate::system::{AbsoluteAngles, Ode, OdeFn, Pendulum, State};
 
-/// Amplitudes at which errors are measured, rad: small ones, where they grow with the
-/// amplitude and its square.
+/// Amplitudes (rad) at which errors are measured. They are so small that relative errors consist of
+/// a part proportional to the amplitude and a part proportional to its square.
 const AMPLITUDES: [f64; 2] = [0.01, 0.05];
 
-/// Frames in the second that is followed.
+/// Number of frames in the second over which errors are measured.
 const FRAMES: u32 = 60;
 
-/// For each mode, E₁ and E₂: over a second, the largest error of an angle is
-/// E₁ a² + E₂ a³ for a motion of the mode alone from rest, whose largest angle is a.
+/// Returns for each mode the coefficients E₁ and E₂ of its error. In a motion of the mode alone
+/// from rest, whose largest angle is a, the largest error of an angle over one second is E₁ a² + E₂
+/// a³.
 ///
-/// E₁ vanishes about an equilibrium to whose two sides a tree is alike.
+/// E₁ is zero if the tree is symmetric about the equilibrium.
 pub(super) fn errors<P: Pendulum<f64>>(
     model: &P,
     linear: &Linear,
@@ -62,8 +63,8 @@ pub(super) fn errors<P: Pendulum<f64>>(
     (0..n).map(measure).collect()
 }
 
-/// Largest difference of an angle between two systems in the second after a start, by
-/// the same method with the same steps.
+/// Returns the largest difference of an angle (rad) between the motions of two systems in the
+/// second after a start. Both are integrated by the same method with the same steps.
 fn distance(full: impl Ode<f64>, small: &impl Ode<f64>, start: &State<f64>, sub_step: f64) -> f64 {
     let follow = (
         Frames::new(full, start, sub_step),

@@ -1,10 +1,10 @@
-//! Models that are cheaper than the full one, each with its error measured.
+//! Models that are cheaper than the full one, each with a measured error.
 //!
 //! - [`Linear`]: small motions about an equilibrium, in modes,
-//! - [`Linear::truncate`]: its slow modes alone,
-//! - [`LinearFrames`]: its exact propagation by frames,
-//! - [`NearlyInPhase`]: copies with small differences beside their motion in phase,
-//! - [`Switched`]: the full model and an approximation in turn, as the error allows.
+//! - [`Linear::truncate`]: the slow modes of a linear model,
+//! - [`LinearFrames`]: exact propagation of a linear model, frame by frame,
+//! - [`NearlyInPhase`]: copies with small differences from their motion in phase,
+//! - [`Switched`]: an approximation while its error is small enough, otherwise the full model.
 
 mod about;
 mod error;
@@ -26,36 +26,37 @@ pub use switched::{SwitchLog, Switched};
 
 use crate::scalar::Real;
 
-/// A model that moves full states by frames of one length, nearly as the full model
-/// does, and knows by how much it does not.
+/// An approximate model that advances full states by frames of one length, and estimates its own
+/// error against the full model.
 ///
-/// States are the angles (rad) followed by the angular velocities (rad/s), as
-/// [`AbsoluteAngles`](crate::system::AbsoluteAngles) has them. States and torques of
-/// another length are answered with NaN.
+/// States are the angles (rad) followed by the angular velocities (rad/s), as in
+/// [`AbsoluteAngles`](crate::system::AbsoluteAngles). For states and torques of another length the
+/// results are NaN.
 pub trait Approximation<T: Real> {
-    /// Length of a frame, s.
+    /// Returns the length of a frame, s.
     fn frame(&self) -> T;
 
-    /// Moves a state by one frame.
+    /// Advances a state by one frame.
     fn step(&mut self, state: &mut [T]);
 
-    /// Returns an estimate of the error against the full model over the second that
-    /// follows a state: the largest error of an angle, relative to the amplitude of all.
-    /// Cheap: no evaluation of the full model.
+    /// Returns an estimate of the relative error over the second after a state: the largest error
+    /// of an angle against the full model, divided by the amplitude of all angles. It does not
+    /// evaluate the full model, and so is cheap.
     ///
-    /// [`NearlyInPhase`] says how its own compares with errors. For [`LinearFrames`] it is
-    /// between 0.8 and 12 times the error, for amplitudes up to 0.6 rad of the four trees of
-    /// a test; too large where light links swing much more than heavy ones do.
+    /// For [`NearlyInPhase`], see its documentation on how the estimate compares with errors. For
+    /// [`LinearFrames`] the estimate is between 0.8 and 12 times the error in a test of four trees
+    /// with amplitudes up to 0.6 rad; it is too large if light links swing much more than heavy
+    /// ones.
     fn validity(&self, state: &[T]) -> T;
 
-    /// Returns the same estimate as an angle, rad. Over other times than a second
-    /// errors are as many times as large, as long as the amplitude is.
+    /// Returns the estimate of the error over the second after a state as an angle, in rad. Over t
+    /// seconds the error is t times as large, as long as the amplitude stays the same.
     fn error(&self, state: &[T]) -> T;
 }
 
-/// An [`Approximation`] that takes torques from outside.
+/// An [`Approximation`] that accepts external torques.
 pub trait ForcedApproximation<T: Real>: Approximation<T> {
-    /// Moves a state by one frame under torques (N m) on each link that stay the same
-    /// during it. NaN where it cannot take them.
+    /// Advances a state by one frame, during which constant torques (N m) act on the links. The
+    /// state becomes NaN if the approximation cannot represent the torques.
     fn step_under(&mut self, state: &mut [T], torques: &[T]);
 }

@@ -1,4 +1,4 @@
-//! Copies nearly in phase, frame by frame.
+//! Motions of copies that are nearly in phase, computed frame by frame.
 
 use alloc::vec;
 use alloc::vec::Vec;
@@ -12,32 +12,33 @@ use crate::system::{
     State,
 };
 
-/// A tree whose copies are nearly in phase, by the model of small differences that act
-/// back ([`SmallDifferences`]), in frames.
+/// The motion of a tree whose copies are nearly in phase, computed frame by frame with a model of
+/// small differences ([`SmallDifferences`]).
 ///
-/// Steps are those of [`Frames`] on angles and differences. What a state has of other
-/// differences than the [`DifferencePatterns`] is dropped by a step, and counts as an
-/// error. For models without a drive, whose time is not told. Models that take torques from
-/// outside move under them where [`under_torques`](NearlyInPhase::under_torques) made this.
+/// Sub-steps are those of [`Frames`] on angles and differences. Only differences in the
+/// [`DifferencePatterns`] are followed: a step drops all others from the state, and they count as
+/// an error. The model must not have a drive, because approximations do not depend on time. With
+/// [`under_torques`](NearlyInPhase::under_torques) it accepts external torques.
 ///
 /// # Estimate of the error
 ///
-/// A difference of amplitude b, b² = δ² + (δ̇/Ω)² with Ω² = (∂²E/∂δ²)/(∂²E/∂δ̇²), swings
-/// slower by the part b²/16 than the model has it: over a second that is an error of (Ω/16) b³.
-/// With B² = Σ b², the highest Ω, and the rates ω of the angles in phase, which add to
-/// stiffness, the estimate is (Ω² + ω²)^½ B³/4. Where the energy of the motion in phase is x
-/// times what lifts the copies' links to the horizontal, x > 1, differences may grow
-/// manifold in a second: times e^(6x − 6). Patterns with uneven weights drive
-/// other differences, by B² and the angles in phase, and so do differences of copies within
-/// copies that differ, by 2 B_s B_t. Errors of the sub-steps come on top.
+/// A difference has the amplitude b with b² = δ² + (δ̇/Ω)², where Ω² = (∂²E/∂δ²)/(∂²E/∂δ̇²). It
+/// really oscillates slower than in the model, by the relative amount b²/16: over one second this
+/// is an error of (Ω/16) b³. With B² = Σ b², the highest Ω, and the rates ω of the angles in phase,
+/// which add to the stiffness, the estimate is (Ω² + ω²)^½ B³/4. Let x be the energy of the motion
+/// in phase over the energy that lifts the copies' links to the horizontal: for x > 1, differences
+/// may grow by the factor e^(6x − 6) in a second, and the estimate is multiplied by it. Patterns
+/// with uneven weights drive other differences, in proportion to B² and the angles in phase;
+/// differences s, and differences t of copies within these copies, drive others in proportion to 2
+/// B_s B_t. Errors of the sub-steps are added.
 ///
-/// For 400 states in disorder of the paper's pendulum, whose motion in phase has up to the energy
-/// of a release from 30° (x = 1), with differences up to 0.01, 0.05, 0.2 and 0.5 rad, the
-/// estimate is between 0.8 and 30 times the error, and for as many of a binary tree of seven
-/// links between 0.3 and 30 times; a test asks for that. Beyond x = 1.5, where motions that turn
-/// copies over can multiply differences by a thousand in a second, nothing is known: with
-/// differences the estimate is infinite there, so that [`Switched`](super::Switched) takes the
-/// full model, and without any it is zero.
+/// A test compares the estimate with the error for 400 random states of the paper's pendulum, whose
+/// motion in phase has up to the energy of a release from 30° (x = 1), with differences up to 0.01,
+/// 0.05, 0.2 and 0.5 rad: the estimate is between 0.8 and 30 times the error. For 400 states of a
+/// binary tree of seven links it is between 0.3 and 30 times the error. Beyond x = 1.5, where
+/// motions that turn copies over can multiply differences by a thousand in a second, the error is
+/// unknown. There the estimate is infinite, so that [`Switched`](super::Switched) uses the full
+/// model, or zero if there are no differences.
 ///
 /// # Examples
 ///
@@ -81,20 +82,20 @@ use crate::system::{
 /// ```
 #[derive(Clone, Debug)]
 pub struct NearlyInPhase<P, T, O = SmallOde<P>> {
-    /// The model of `frames`, for the estimate.
+    /// The model that `frames` integrates, from which the error is estimated.
     model: P,
     frames: Frames<O, T>,
     patterns: DifferencePatterns,
     frame: T,
     error: SmallError<T>,
-    /// State of the model.
+    /// State of the model of small differences: angles, differences, then their rates.
     small: Vec<T>,
 }
 
 impl<P: SmallDifferences<T> + Clone, T: Real> NearlyInPhase<P, T> {
-    /// A model, or a reference to one, in frames of `frame` (s), cut into sub-steps no
-    /// longer than `sub_step` (s); [`longest_sub_step`](crate::integrate::longest_sub_step)
-    /// of the whole tree is one.
+    /// Creates the motion of a model (or of a reference to one) with frames of length `frame` (s).
+    /// These are divided into sub-steps of at most `sub_step` (s), such as
+    /// [`longest_sub_step`](crate::integrate::longest_sub_step) of the whole tree.
     ///
     /// # Errors
     ///
@@ -111,11 +112,11 @@ impl<P: SmallDifferences<T> + Clone, T: Real> NearlyInPhase<P, T> {
 }
 
 impl<P: ForcedDifferences<T> + Clone, T: Real> NearlyInPhase<P, T, SmallUnderTorques<P, Vec<T>>> {
-    /// A model that takes torques from outside: [`new`](NearlyInPhase::new) with
-    /// [`ForcedApproximation`].
+    /// Creates the motion like [`new`](NearlyInPhase::new) for a model that accepts external
+    /// torques; the result is a [`ForcedApproximation`].
     ///
-    /// Torques that differ between copies in other ways than the patterns do, it cannot
-    /// take.
+    /// Torques that differ between copies in other patterns than the [`DifferencePatterns`] cannot
+    /// be represented.
     ///
     /// # Errors
     ///
@@ -201,7 +202,7 @@ impl<P: ForcedDifferences<T>, T: Real> ForcedApproximation<T>
         let held = self.frames.ode_mut().torques_mut();
         self.patterns.torques_into(torques, held);
         self.step(state);
-        // They act during this frame alone.
+        // Clears the torques, which act during this frame only.
         self.frames.ode_mut().torques_mut().fill(T::ZERO);
     }
 }

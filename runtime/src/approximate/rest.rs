@@ -2,19 +2,20 @@
 
 use alloc::vec::Vec;
 
-/// Most steps of a search.
+/// Largest number of steps of a search.
 pub(crate) const MOST_STEPS: usize = 100;
 
-/// Longest step of an angle, rad: beyond, the stiffness says nothing.
+/// Largest change of an angle in one step, in rad. For larger changes the stiffness does not
+/// predict the torques.
 const LONGEST_STEP: f64 = 0.5;
 
-/// Changes angles by what `step` says until that no longer shrinks, and returns the largest
-/// change of the last step if it is not small after [`MOST_STEPS`]. The angles are those of the
-/// last call.
+/// Repeatedly adds the changes returned by `step` to the angles (rad) until they no longer become
+/// smaller, and then returns `None`. After [`MOST_STEPS`] steps it returns the largest change in
+/// the last step instead. `step` was last called at the final angles.
 ///
 /// # Errors
 ///
-/// Errors of `step`.
+/// Returns the errors of `step`.
 pub(crate) fn come_to_rest<E>(
     angles: &mut [f64],
     mut step: impl FnMut(&[f64]) -> Result<Vec<f64>, E>,
@@ -25,7 +26,7 @@ pub(crate) fn come_to_rest<E>(
         let before = size;
         let sizes = changes.iter().map(|change| change.abs());
         size = sizes.fold(0.0, f64::max);
-        // Rounding is reached where steps no longer shrink.
+        // Steps that no longer shrink have reached the level of rounding.
         if size == 0.0 || (size < 1e-9 && size >= 0.5 * before) {
             return Ok(None);
         }

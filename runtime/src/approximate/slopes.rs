@@ -1,4 +1,4 @@
-//! Equilibria, and the derivatives of accelerations there.
+//! Search for an equilibrium, and the derivatives of the accelerations there.
 
 use alloc::vec;
 use alloc::vec::Vec;
@@ -9,7 +9,8 @@ use crate::integrate::Factored;
 use crate::scalar::Dual;
 use crate::system::{Pendulum, Workspace};
 
-/// An equilibrium and the derivatives of accelerations there, row by row.
+/// Equilibrium (angles in rad) and the derivatives of the accelerations there by angles and by
+/// angular velocities, as matrices stored row by row.
 pub(super) struct RestSlopes {
     pub(super) equilibrium: Vec<f64>,
     pub(super) by_angles: Vec<f64>,
@@ -17,7 +18,8 @@ pub(super) struct RestSlopes {
 }
 
 impl RestSlopes {
-    /// Searches for rest next to the angles `near`.
+    /// Searches for an equilibrium near the angles `near` (rad), and returns it with the
+    /// derivatives of the accelerations.
     pub(super) fn at_rest(
         model: &impl Pendulum<Dual<f64, 1>>,
         near: &[f64],
@@ -35,7 +37,8 @@ impl RestSlopes {
             if !step.iter().chain(&slopes.by_angles).all(|a| a.is_finite()) {
                 return Err(LinearError::NotFinite);
             }
-            // At rest already: there may be no stiffness at all.
+            // The tree is at rest already; the stiffness may be zero, so that it could not be
+            // factorised.
             if step.iter().all(|&acceleration| acceleration == 0.0) {
                 return Ok(step);
             }
@@ -54,7 +57,8 @@ impl RestSlopes {
         }
     }
 
-    /// Derives at the present angles, and returns the accelerations.
+    /// Computes the derivatives of the accelerations at the equilibrium, and returns the
+    /// accelerations (rad/s²) there.
     fn derive(&mut self, model: &impl Pendulum<Dual<f64, 1>>) -> Vec<f64> {
         let n = self.equilibrium.len();
         let angles = self.equilibrium.iter();

@@ -1,4 +1,4 @@
-//! How far a model of small differences is from the full one.
+//! Estimated error of a model of small differences, compared with the full model.
 
 use alloc::vec;
 use alloc::vec::Vec;
@@ -6,22 +6,24 @@ use alloc::vec::Vec;
 use crate::scalar::{Real, Scalar};
 use crate::system::{DifferencePatterns, SmallDifferences};
 
-/// Growth of the error with the energy in phase beyond what lifts copies to the horizontal,
-/// and how far beyond it is known.
+/// Constants of the growth of the error with x − 1: its exponent, and the largest x − 1 for which
+/// it is known. x is the energy of the in-phase motion divided by the energy that lifts the links
+/// of the copies to the horizontal.
 const GROWTH: f64 = 6.0;
 const MOST_BEYOND: f64 = 0.5;
 
-/// The parts that the estimate of [`NearlyInPhase`](super::NearlyInPhase) is made of.
+/// Constants of a model from which the error of [`NearlyInPhase`](super::NearlyInPhase) is
+/// estimated.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct SmallError<T> {
-    /// Least and largest Ω² of a difference.
+    /// Smallest and largest squared angular frequency Ω² (1/s²) of a difference.
     slowest: T,
     fastest: T,
-    /// Ω² of each difference.
+    /// Squared angular frequency Ω² (1/s²) of each difference.
     squares: Vec<T>,
-    /// Energy that lifts all links of the lightest sector to the horizontal, J.
+    /// Energy (J) that lifts all links of the lightest sector from hanging to the horizontal.
     lift: T,
-    /// Energy where all hang, J.
+    /// Energy (J) of the tree with all links hanging.
     rest: T,
     /// Largest [`DifferencePatterns::unevenness`] of a sector.
     unevenness: T,
@@ -41,8 +43,8 @@ impl<T: Real> SmallError<T> {
                 let held = model.transverse_energy_of(number, &hanging, &unit, &still);
                 let moving = model.transverse_energy_of(number, &hanging, &still, &unit);
                 stiffness = stiffness + held + held;
-                // Without stiffness, or with less than none, rates count as angles in a
-                // second.
+                // Uses Ω = 1/s where the stiffness is zero or negative, so that a rate counts as
+                // the angle it covers in one second.
                 squares.push(Real::max(held / moving, T::ONE));
             }
             lift = Real::min(lift, T::from_f64(sector.holders as f64) * stiffness);
@@ -63,8 +65,8 @@ impl<T: Real> SmallError<T> {
         }
     }
 
-    /// Returns the error of an angle over a second, and the amplitude of all angles, for a
-    /// state of the whole tree.
+    /// Returns the estimated error of an angle over one second, and the largest amplitude of an
+    /// angle, both in rad, for a state of the whole tree.
     pub(super) fn estimate<P: SmallDifferences<T>>(
         &self,
         model: &P,
@@ -101,13 +103,14 @@ impl<T: Real> SmallError<T> {
         } else if own + dropped == T::ZERO {
             T::ZERO
         } else {
-            // Copies that turn over may multiply differences by anything.
+            // Copies that turn over may multiply differences by an unknown factor.
             T::from_f64(f64::INFINITY)
         };
         [error, Scalar::sqrt(small_square + swing_square)]
     }
 
-    /// Returns the largest amplitude of an angle that the patterns leave out.
+    /// Returns the largest amplitude (rad) of the part of a link's angle that the patterns cannot
+    /// represent.
     fn dropped(&self, patterns: &DifferencePatterns, state: &[T], small: &[T]) -> T {
         let (angles, rates) = small.split_at(patterns.half());
         let (whole_angles, whole_rates) = state.split_at(state.len() / 2);
@@ -118,7 +121,7 @@ impl<T: Real> SmallError<T> {
             let rate = rate - patterns.of_link(link, rates);
             Real::max(largest, angle * angle + rate * rate / self.slowest)
         });
-        // Means are rounded: below that nothing is left out.
+        // A remainder below the rounding of the means counts as zero.
         let size = Scalar::sqrt(sum_of_squares(state));
         let rounding = T::from_f64(8.0) * T::EPSILON * size;
         let left = Scalar::sqrt(largest);
@@ -126,9 +129,9 @@ impl<T: Real> SmallError<T> {
     }
 }
 
-/// Returns 2 Σ B_s B_t over sectors t among the links of sectors s: the two together drive
-/// differences of t that are not alike under all holders. `parts` are the squares of
-/// amplitudes.
+/// Returns 2 Σ B_s B_t over pairs of sectors s, t for which copies of t are attached within copies
+/// of s. B are the amplitudes of their differences, which together drive differences of t that vary
+/// between the copies of s. `parts` are the squared amplitudes of all differences.
 fn within_others<T: Real, P: SmallDifferences<T>>(mut parts: &[T]) -> T {
     let mut amplitudes = Vec::with_capacity(P::SMALL.len());
     for &number in P::SMALL {

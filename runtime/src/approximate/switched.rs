@@ -1,4 +1,5 @@
-//! The cheaper model where it is good enough.
+//! Motion that switches between the full model and a cheaper approximation while that is accurate
+//! enough.
 
 use alloc::vec::Vec;
 use core::fmt;
@@ -8,13 +9,13 @@ use crate::integrate::Frames;
 use crate::scalar::Real;
 use crate::system::{Forced, Ode, UnderTorques};
 
-/// A motion by frames that takes an approximation while its error allows that, and the
-/// full model otherwise.
+/// A motion, advanced frame by frame, that uses an approximation while its error is small enough,
+/// and the full model otherwise.
 ///
-/// Before each frame the approximation tells its error ([`Approximation::error`]), which
-/// counts for as many seconds as errors add up. Above the tolerance (rad) the full model
-/// takes the state over; the approximation has it back where its error has been below
-/// half of the tolerance for a tenth of a second. The state is handed over as it is.
+/// Before each frame it multiplies the approximation's error over one second
+/// ([`Approximation::error`]) by the number of seconds over which errors accumulate. If the result
+/// is above the tolerance (rad), it switches to the full model; it switches back when the error has
+/// been below half of the tolerance for a tenth of a second. Both continue from the same state.
 ///
 /// # Examples
 ///
@@ -50,29 +51,29 @@ use crate::system::{Forced, Ode, UnderTorques};
 /// ```
 #[derive(Clone, Debug)]
 pub struct Switched<O, A, T> {
-    /// Holds the state, whichever model moves it.
+    /// The full model. Its state is the present state, even if the approximation computed it.
     full: Frames<O, T>,
     approximation: A,
-    /// Largest error that the approximation may tell of a second.
+    /// Largest error over one second (rad) at which the approximation may be used.
     limit: T,
-    /// The state while the approximation moves it.
+    /// Buffer for the state that the approximation advances.
     moved: Vec<T>,
     approximate: bool,
-    /// Frames for which the approximation has been good enough.
+    /// Number of successive frames for which the approximation has been accurate enough.
     calm: u64,
     calm_frames: u64,
     log: SwitchLog,
 }
 
-/// The account of a [`Switched`] motion.
+/// Numbers of frames and switches of a [`Switched`] motion.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct SwitchLog {
     /// Frames by the full model.
     pub full_frames: u64,
-    /// Frames by the approximation.
+    /// Number of frames computed by the approximation.
     pub approximate_frames: u64,
-    /// Number of times that the state went from one to the other.
+    /// Number of switches between the two models so far.
     pub switches: u64,
 }
 
@@ -91,15 +92,15 @@ impl fmt::Display for SwitchLog {
     }
 }
 
-/// Time for which the approximation must be good enough before it takes over, s.
+/// Time (s) for which the approximation must be accurate enough before it is used again.
 const CALM: f64 = 0.1;
 
 impl<O: Ode<T>, A: Approximation<T>, T: Real> Switched<O, A, T> {
-    /// A motion from the state of `full`, with errors up to `tolerance` (rad) where they
-    /// add up over a time of `seconds`: the length of the run, or where friction lets
-    /// them fade sooner, that of [`Linear::fading_time`](super::Linear::fading_time);
-    /// less than a second counts as one. A tolerance that is no number, or not positive,
-    /// is one that only the full model meets.
+    /// Returns a motion from the state of `full`, with errors up to `tolerance` (rad). `seconds` is
+    /// the time over which errors accumulate: the length of the run, or
+    /// [`Linear::fading_time`](super::Linear::fading_time) if friction makes errors decay sooner.
+    /// Less than one second counts as one. If the tolerance is NaN or not positive, only the full
+    /// model is used.
     pub fn new(full: Frames<O, T>, approximation: A, tolerance: T, seconds: T) -> Self {
         let calm_frames = (CALM / approximation.frame().to_f64()) as u64;
         Self {
@@ -108,34 +109,34 @@ impl<O: Ode<T>, A: Approximation<T>, T: Real> Switched<O, A, T> {
             approximation,
             limit: tolerance / T::ONE.max(seconds),
             approximate: false,
-            // The start may be calm already.
+            // Lets the motion start with the approximation if its error is small enough.
             calm: calm_frames,
             calm_frames,
             log: SwitchLog::default(),
         }
     }
 
-    /// Moves on by a frame of the approximation.
+    /// Advances the motion by one frame, of the length for which the approximation was made.
     pub fn advance(&mut self) {
         self.frame(|approximation, _, state| approximation.step(state));
     }
 
-    /// The state.
+    /// Returns the state: angles (rad), then angular velocities (rad/s).
     pub fn state(&self) -> &[T] {
         self.full.state()
     }
 
-    /// Time of the state, s.
+    /// Returns the time of the state, s.
     pub fn time(&self) -> f64 {
         self.full.time()
     }
 
-    /// True while the approximation moves the state.
+    /// Returns true while the approximation is in use.
     pub fn is_approximate(&self) -> bool {
         self.approximate
     }
 
-    /// The account of all frames so far.
+    /// Returns the numbers of frames and switches up to now.
     pub fn log(&self) -> SwitchLog {
         self.log
     }
@@ -151,14 +152,15 @@ impl<O: Ode<T>, A: Approximation<T>, T: Real> Switched<O, A, T> {
                 self.log.approximate_frames += 1;
                 return;
             }
-            // Torques that the approximation cannot take: the full model knows what to do.
+            // The approximation cannot represent these torques: switches to the full model, which
+            // can.
             self.switch(false);
         }
         self.full.advance(frame);
         self.log.full_frames += 1;
     }
 
-    /// Takes the model for the next frame.
+    /// Decides which of the two models computes the next frame.
     fn choose(&mut self) {
         let error = self.approximation.error(self.full.state());
         if self.approximate {
@@ -181,8 +183,8 @@ impl<O: Ode<T>, A: Approximation<T>, T: Real> Switched<O, A, T> {
 }
 
 impl<P: Forced<T>, A: ForcedApproximation<T>, T: Real> Switched<UnderTorques<P, Vec<T>>, A, T> {
-    /// Moves on by a frame under torques (N m) that stay the same during it; torques of
-    /// another number than links are none.
+    /// Advances the motion by one frame under torques (N m) on the links that stay constant during
+    /// it. Torques of another length than the number of links count as zero.
     pub fn advance_under(&mut self, torques: &[T]) {
         let links = self.full.ode_mut().dimension() / 2;
         let held = self.full.ode_mut().torques_mut();

@@ -1,16 +1,17 @@
-//! States of a batch, a register at a time.
+//! Evaluation of a batch, one register of states at a time.
 
 use crate::scalar::Lane;
-use crate::simd::{Kernel, Known, Simd};
+use crate::simd::{Kernel, Simd, WithSinCos};
 use crate::system::known;
 use crate::system::{InRegisters, Pendulum};
 
-/// All states, if they are enough for one register; lengths checked.
+/// All states of a batch that fills at least one register, with the function to compute. Lengths of
+/// slices have been checked.
 pub(super) struct Blocks<'a, P, T, In, On, Out> {
     pub(super) pendulum: &'a P,
     pub(super) time: T,
     pub(super) count: usize,
-    pub(super) room: &'a mut [T],
+    pub(super) buffer: &'a mut [T],
     pub(super) theta: &'a [In],
     pub(super) omega: &'a [On],
     pub(super) alpha: &'a mut [Out],
@@ -24,7 +25,7 @@ where
     On: AsRef<[T]>,
     Out: AsMut<[T]>,
 {
-    /// Number of states that it has done.
+    /// Number of evaluated states.
     type Output = usize;
 
     #[inline(always)]
@@ -49,14 +50,13 @@ where
     On: AsRef<[T]>,
     Out: AsMut<[T]>,
 {
-    /// A register of states after the other; the last one starts
-    /// with state `last`, and overlaps the one before, where it would not be full: some
-    /// states are computed twice.
+    /// Evaluates the states register by register. The last register starts with state `last`; if it
+    /// would not be full, it overlaps the one before, so that some states are computed twice.
     #[inline(always)]
     fn in_turn<R: Simd<T>>(self, last: usize) -> usize {
         let mut next = 0;
         let links = self.pendulum.links();
-        // Links as many as the compiler knows them to be.
+        // As many links as the compiler knows them to be.
         let (Some(theta), Some(omega), Some(alpha)) = (
             self.theta.get(..links),
             self.omega.get(..links),
@@ -64,7 +64,7 @@ where
         ) else {
             return next;
         };
-        let mut pendulum = self.pendulum.in_registers::<R>(self.time, self.room);
+        let mut pendulum = self.pendulum.in_registers::<R>(self.time, self.buffer);
         let nothing = R::splat(T::from_f64(f64::NAN)).to_chunk();
         while next < self.count {
             let end = next.min(last) + R::LANES;
@@ -78,9 +78,10 @@ where
         next
     }
 
-    /// All registers of states, of `L` links. Before one, the sines of the next one are
-    /// computed: what follows sines is few operations that wait for each other and for a
-    /// division, and they do so while the processor is busy with the others.
+    /// Evaluates all registers of states of a model with `L` links. The sines of the next register
+    /// are computed before each register is finished. The operations after the sines are few,
+    /// depend on each other and contain a division, so that the processor can overlap them with
+    /// sines.
     #[inline(always)]
     fn ahead<R: Simd<T>, const L: usize>(self, last: usize) -> usize {
         let (Some(theta), Some(omega), Some(alpha)) = (
@@ -90,20 +91,20 @@ where
         ) else {
             return 0;
         };
-        let pendulum = self.pendulum.cast(|x| Known::number(R::splat(x)));
-        let time = Known::number(R::splat(self.time));
+        let pendulum = self.pendulum.cast(|x| WithSinCos::number(R::splat(x)));
+        let time = WithSinCos::number(R::splat(self.time));
         let nothing = R::splat(T::from_f64(f64::NAN));
         let mut end = R::LANES;
-        let mut turned = turns::<T, R, L>(theta, end, nothing);
+        let mut turned = sines::<T, R, L>(theta, end, nothing);
         loop {
             let next = end.min(last) + R::LANES;
-            let turned_next = turns::<T, R, L>(theta, next, nothing);
+            let turned_next = sines::<T, R, L>(theta, next, nothing);
             let (sines, cosines) = turned;
             pendulum.evaluate(
                 time,
-                |link| Known::angle(load(theta, link, end, nothing), link, &sines, &cosines),
-                |link| Known::number(load(omega, link, end, nothing)),
-                |link, value: Known<R>| store(alpha, link, end, value.number),
+                |link| WithSinCos::angle(load(theta, link, end, nothing), link, &sines, &cosines),
+                |link| WithSinCos::number(load(omega, link, end, nothing)),
+                |link, value: WithSinCos<R>| store(alpha, link, end, value.number),
             );
             if end == self.count {
                 return end;
@@ -113,9 +114,9 @@ where
     }
 }
 
-/// Sines and cosines of the states that end before `end`.
+/// Computes the sines and cosines of the register of states that ends before state `end`.
 #[inline(always)]
-fn turns<T: Lane, R: Simd<T>, const L: usize>(
+fn sines<T: Lane, R: Simd<T>, const L: usize>(
     theta: &[impl AsRef<[T]>; L],
     end: usize,
     nothing: R,
@@ -127,15 +128,15 @@ fn turns<T: Lane, R: Simd<T>, const L: usize>(
     R::sin_cos_each(&angles)
 }
 
-/// One register of one link, that ends before state `end`; `nothing` where the slice is
-/// too short, which has been excluded.
+/// Reads one register of one link's numbers that ends before state `end`; returns `nothing` if the
+/// slice is too short, which cannot happen.
 #[inline(always)]
 fn load<T: Lane, R: Simd<T>>(slices: &[impl AsRef<[T]>], link: usize, end: usize, nothing: R) -> R {
     let slice = slices.get(link).and_then(|slice| slice.as_ref().get(..end));
     slice.and_then(R::last_chunk).map_or(nothing, R::from_chunk)
 }
 
-/// Writes what [`load`] reads.
+/// Writes the register that [`load`] reads.
 #[inline(always)]
 fn store<T: Lane, R: Simd<T>>(slices: &mut [impl AsMut<[T]>], link: usize, end: usize, value: R) {
     if let Some(slice) = slices.get_mut(link) {
@@ -143,8 +144,8 @@ fn store<T: Lane, R: Simd<T>>(slices: &mut [impl AsMut<[T]>], link: usize, end: 
     }
 }
 
-/// As [`load`], where the number is needed: the choice is between places and
-/// not numbers.
+/// Reads a register like [`load`], at the time at which it is needed, because it selects an address
+/// and not a number.
 #[inline(always)]
 fn load_late<T: Lane, R: Simd<T>>(
     slices: &[impl AsRef<[T]>],

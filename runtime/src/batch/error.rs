@@ -1,13 +1,13 @@
-//! Errors of a batch.
+//! Errors of batches.
 
 use crate::errors::errors;
 
 errors! {
-    /// Arguments of a batch that do not fit together.
+    /// Error: the arguments of a batch have inconsistent lengths.
     #[derive(Clone, Copy, Debug, PartialEq, Eq)]
     #[non_exhaustive]
     pub enum BatchError {
-        /// An argument has another number of slices than the pendulum has links.
+        /// The number of slices of an argument is not the number of links.
         Links {
             /// Name of the argument.
             argument: &'static str,
@@ -16,19 +16,19 @@ errors! {
             /// Number of slices.
             found: usize,
         } => "`{argument}` needs one slice for each of {expected} links, but has {found}",
-        /// A slice has another length than the first one of the angles.
+        /// The length of a slice differs from that of the first slice of angles.
         States {
             /// Name of the argument.
             argument: &'static str,
             /// Index of the link.
             link: usize,
-            /// Length of the first slice of all.
+            /// Length of the first slice.
             expected: usize,
             /// Length of this slice.
             found: usize,
         } => "`{argument}[{link}]` holds {found} states, but the first slice of all holds \
             {expected}",
-        /// There are more or fewer slices than values of the function.
+        /// The number of result slices is not the number of values of the function.
         Values {
             /// Number of values.
             expected: usize,

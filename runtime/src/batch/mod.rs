@@ -1,10 +1,9 @@
 //! Accelerations, and any other function of a model, of many states at once.
 //!
-//! States lie as a structure of arrays: for each link a slice with its angle in
-//! every state. [`Batch`] takes as many at a time as fit into the widest vector
-//! registers that the machine has. The states are read and written where they
-//! lie. [`state_function!`](crate::state_function) names other functions than the
-//! accelerations.
+//! States are stored as a structure of arrays: each link has a slice with its angle in every state.
+//! [`Batch`] evaluates as many states at a time as fit into the widest vector registers of the
+//! machine, and reads and writes them in place. [`state_function!`](crate::state_function) defines
+//! functions other than the accelerations.
 //!
 //! ```
 //! # use branched_pendulum::{Model, Pendulum, Scalar};
@@ -50,7 +49,9 @@
 
 mod blocks;
 mod error;
+mod evaluate;
 mod function;
+mod registers;
 
 use alloc::vec::Vec;
 
@@ -63,29 +64,28 @@ use blocks::Blocks;
 pub use error::BatchError;
 pub use function::{StateFunction, StateValues};
 
-/// Evaluates a pendulum for any number of states, a register at a time.
+/// Evaluates a pendulum for any number of states, one register at a time.
 ///
-/// Room is allocated when it is built, and nothing later: for one state, and where the
-/// model is loops over a large tree, for some nine numbers a link of as many states as a
-/// register holds. (For fewer states than that, such a model allocates when it computes
-/// the first.) Each state gets the bits that
-/// [`accelerations_into`](crate::Pendulum::accelerations_into) gives it alone,
-/// whatever its place in the batch.
+/// Memory is allocated only when the batch is created: for one state, and, if the model is a large
+/// tree computed in loops, about nine numbers per link and lane. (If there are fewer states than
+/// lanes, such a model allocates when it computes the first one.) Results have the same bits as
+/// those of [`accelerations_into`](crate::Pendulum::accelerations_into), independent of the state's
+/// index in the batch.
 #[derive(Clone, Debug)]
 pub struct Batch<'m, P, T> {
     pendulum: &'m P,
     instructions: InstructionSet,
-    /// One state: angles, velocities, accelerations.
+    /// Angles, velocities and accelerations of a single state, for states that do not fill a
+    /// register.
     alone: [Vec<T>; 3],
     workspace: Workspace<T>,
-    /// Memory for a register of states, where the model does not compute in
-    /// registers.
-    room: Vec<T>,
+    /// Workspace for a register of states, for models that need one.
+    buffer: Vec<T>,
 }
 
 impl<'m, P: Pendulum<T>, T: Lane> Batch<'m, P, T> {
-    /// For a `pendulum` in `f64` or `f32`. Uses the widest registers that the
-    /// machine has.
+    /// Creates a batch for a `pendulum` in `f64` or `f32`. It uses the widest registers of the
+    /// machine.
     ///
     /// # Examples
     /// See the [module](self).
@@ -96,34 +96,34 @@ impl<'m, P: Pendulum<T>, T: Lane> Batch<'m, P, T> {
             instructions: InstructionSet::widest(),
             alone: core::array::from_fn(|_| alloc::vec![T::from_f64(0.0); pendulum.links()]),
             workspace: Workspace::new(),
-            room: alloc::vec![T::from_f64(0.0); room::<T>(pendulum.room())],
+            buffer: alloc::vec![T::from_f64(0.0); workspace_len::<T>(pendulum.workspace_len())],
         }
     }
 
-    /// Uses instructions that are no wider than `instructions`. With
-    /// [`InstructionSet::Build`] nothing is fused, and the results have the same
-    /// bits on every machine.
+    /// Restricts the batch to instruction sets no wider than `instructions`. With
+    /// [`InstructionSet::Build`] it does not use fused multiply–add, and results have the same bits
+    /// on every machine.
     #[must_use]
     pub fn no_wider_than(mut self, instructions: InstructionSet) -> Self {
         self.instructions = instructions.min(InstructionSet::widest());
         self
     }
 
-    /// The instructions that it uses.
+    /// Returns the instruction set that the batch uses.
     #[must_use]
     pub fn instructions(&self) -> InstructionSet {
         self.instructions
     }
 
-    /// Writes the angular accelerations (rad/s²) at `time` (s) of the states
-    /// with angles `theta` (rad) and angular velocities `omega` (rad/s).
+    /// Writes the angular accelerations (rad/s²) at `time` (s) of the states with angles `theta`
+    /// (rad) and angular velocities `omega` (rad/s).
     ///
-    /// Each argument holds one slice a link, each slice one number a state. A
-    /// state with an angle that is no number gets NaN, and no other one does.
+    /// Each argument has one slice per link, and each slice one number per state. A state with an
+    /// angle that is NaN gets NaN; other states are not affected.
     ///
     /// # Errors
-    /// [`BatchError`] unless there are as many slices as links and all have one
-    /// length; nothing is written then.
+    /// [`BatchError`] unless there are as many slices as links and all have one length; nothing is
+    /// written then.
     pub fn accelerations(
         &mut self,
         time: T,
@@ -144,7 +144,7 @@ impl<'m, P: Pendulum<T>, T: Lane> Batch<'m, P, T> {
             pendulum: self.pendulum,
             time,
             count,
-            room: aligned(&mut self.room),
+            buffer: aligned(&mut self.buffer),
             theta,
             omega,
             alpha,
@@ -158,7 +158,7 @@ impl<'m, P: Pendulum<T>, T: Lane> Batch<'m, P, T> {
 }
 
 impl<P: Pendulum<T>, T: Lane> Batch<'_, P, T> {
-    /// Evaluates states one by one, where there are too few for a register.
+    /// Evaluates states one by one, because there are too few for a register.
     fn one_by_one(
         &mut self,
         time: T,
@@ -187,23 +187,23 @@ impl<P: Pendulum<T>, T: Lane> Batch<'_, P, T> {
     }
 }
 
-/// Bytes in the widest register, and in a line of the cache: what lies across two
-/// lines takes two accesses.
+/// Size of the widest register and of a cache line, in bytes. Data that cross two cache lines need
+/// two accesses.
 const LINE: usize = 64;
 
-/// Numbers of workspace for `values` values in the widest registers, wherever
-/// it starts.
-fn room<T>(values: usize) -> usize {
+/// Returns the length of the workspace, in numbers, for `values` values in the widest registers;
+/// the start of the workspace may have any alignment.
+fn workspace_len<T>(values: usize) -> usize {
     match values {
         0 => 0,
         _ => (values + 1) * (LINE / size_of::<T>().max(1)),
     }
 }
 
-/// The workspace from its first line of the cache on.
-fn aligned<T>(room: &mut [T]) -> &mut [T] {
-    let unaligned = room.as_ptr().align_offset(LINE);
-    room.get_mut(unaligned..).unwrap_or_default()
+/// Returns the part of the workspace that begins at its first cache-line boundary.
+fn aligned<T>(buffer: &mut [T]) -> &mut [T] {
+    let unaligned = buffer.as_ptr().align_offset(LINE);
+    buffer.get_mut(unaligned..).unwrap_or_default()
 }
 
 fn check(

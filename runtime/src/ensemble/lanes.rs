@@ -9,35 +9,32 @@ use crate::scalar::{InstructionSet, Lane};
 use crate::system::{LaneOde, State};
 
 impl Ensemble<'_> {
-    /// Integrates a system from every start to the time `end`, as many starts
-    /// at a time on each thread as the widest vector registers of the machine
-    /// have lanes: eight in `f64` with AVX-512.
+    /// Integrates a system from every start to the time `end`. Each thread integrates as many
+    /// trajectories at once as the machine's widest vector registers have lanes: eight in `f64`
+    /// with AVX-512.
     ///
-    /// The system is any [`LaneOde`]: a model in
-    /// [`AbsoluteAngles`](crate::system::AbsoluteAngles), under torques
-    /// ([`UnderTorques`](crate::system::UnderTorques)), with the small differences
-    /// between its copies ([`TransverseOde`](crate::system::TransverseOde)). The method
+    /// The system is any [`LaneOde`]: a model in [`AbsoluteAngles`](crate::system::AbsoluteAngles),
+    /// with external torques ([`UnderTorques`](crate::system::UnderTorques)), or with the small
+    /// differences between its copies ([`TransverseOde`](crate::system::TransverseOde)). The method
     /// is [`Dop853`](crate::integrate::Dop853), [`Dopri5`](crate::integrate::Dopri5),
-    /// [`Verner98`](crate::integrate::Verner98) or, for steps of one length,
-    /// [`Rk4`](crate::integrate::Rk4) and [`Gauss`](crate::integrate::Gauss); for absolute angles of models that say
-    /// `emit(taylor)` [`Taylor`](crate::integrate::Taylor) too.
+    /// [`Verner98`](crate::integrate::Verner98) or, for fixed steps, [`Rk4`](crate::integrate::Rk4)
+    /// and [`Gauss`](crate::integrate::Gauss); for absolute angles of models with `emit(taylor)`
+    /// also [`Taylor`](crate::integrate::Taylor).
     ///
-    /// Each trajectory has its own steps, chosen by the rules
-    /// of `method` from its own errors, and its own errors and account, as
-    /// [`integrate`](Self::integrate) gives them. The bits depend on its start
-    /// alone: not on its place, the other starts or the number of threads. Methods that
-    /// choose their steps fuse products and sums here where the machine can, so that the bits
-    /// are not those of [`integrate`](Self::integrate); both keep the tolerance. Steps of one
-    /// length are not fused: states, samples, accounts and failures
-    /// are those of [`integrate`](Self::integrate) to the last bit, for equations that have the [same bits](crate::scalar#which-bits) in lanes
-    /// and alone, as those of emitted models do. A lane whose
-    /// trajectory has ended takes the next start.
+    /// Each trajectory has its own steps, chosen by the rules of `method` from its own errors, and
+    /// its own result and report, as from [`integrate`](Self::integrate). Its bits depend on its
+    /// start alone, not on its lane, the other starts or the number of threads. Methods with
+    /// adaptive steps fuse products and sums if the machine can, so that the bits differ from those
+    /// of [`integrate`](Self::integrate); both keep the tolerance. Methods with fixed steps do not
+    /// fuse: states, samples, reports and errors are identical to those of
+    /// [`integrate`](Self::integrate) bit for bit, for equations that have the [same
+    /// bits](crate::scalar#which-bits) in lanes and alone, as those of emitted models do. A lane
+    /// whose trajectory has ended takes the next start.
     ///
-    /// Memory on each thread: for each component of a state 22, 30 or 36 registers
-    /// for the pairs of order 5, 8 and 9, six for [`Rk4`](crate::integrate::Rk4), 3 s + 7
-    /// for [`Gauss`](crate::integrate::Gauss) of s stages (and the matrix of each lane, with
-    /// Newton's method), and for a Taylor series of order p some 20 + 4 p; steps allocate
-    /// nothing.
+    /// Memory per thread, for each component of a state: 22, 30 or 36 registers for the pairs of
+    /// order 5, 8 and 9, six for [`Rk4`](crate::integrate::Rk4), 3 s + 7 for
+    /// [`Gauss`](crate::integrate::Gauss) with s stages (and the matrix of each lane, with Newton's
+    /// method), and about 20 + 4 p for a Taylor series of order p. Steps do not allocate.
     ///
     /// # Examples
     ///
@@ -77,19 +74,20 @@ impl Ensemble<'_> {
         self.ends(method, Cases::Starts(system, starts), end, &[])
     }
 
-    /// Integrates a system from every start to the time `end`, or until one of the endings is
-    /// met, in lanes as [`integrate_in_lanes`](Self::integrate_in_lanes): times at which links
-    /// turn over, or at which a motion leaves a region.
+    /// Integrates a system from every start to the time `end`, or until one of the endings occurs,
+    /// in lanes like [`integrate_in_lanes`](Self::integrate_in_lanes). Endings are, for example,
+    /// times at which a link turns over, or at which a motion leaves a region.
     ///
-    /// A trajectory that ends so has the time and the state of the crossing, by the dense
-    /// output of the method, and
-    /// [`StopReason::StoppedByEvent`](crate::integrate::StopReason::StoppedByEvent); its lane
-    /// takes the next start. The search is that of
-    /// [`integrate_with_events`](crate::integrate::Integrator::integrate_with_events), lane by lane.
+    /// A trajectory that ends in this manner has the time and the state of the crossing, from the
+    /// dense output of the method, and
+    /// [`StopReason::StoppedByEvent`](crate::integrate::StopReason::StoppedByEvent); its lane takes
+    /// the next start. Crossings are found as by
+    /// [`integrate_with_events`](crate::integrate::Integrator::integrate_with_events), in each lane
+    /// separately.
     ///
     /// # Examples
     ///
-    /// Time until a rod goes over the top, by its release:
+    /// Time until a rod goes over the top, depending on its initial speed:
     ///
     #[cfg_attr(feature = "macros", doc = "```")]
     #[cfg_attr(not(feature = "macros"), doc = "```ignore")]
@@ -132,22 +130,22 @@ impl Ensemble<'_> {
         self.ends(method, Cases::Starts(system, starts), end, endings)
     }
 
-    /// Integrates systems that differ in their constants, each from its own
-    /// start, in lanes as [`integrate_in_lanes`](Self::integrate_in_lanes): scans
-    /// over friction, masses, lengths, drives.
+    /// Integrates systems that differ in their constants, each from its own start, in lanes like
+    /// [`integrate_in_lanes`](Self::integrate_in_lanes): for scans over friction, masses, lengths,
+    /// drives.
     ///
-    /// Every lane has the constants of its own system; a trajectory has the bits
-    /// that [`integrate_in_lanes`](Self::integrate_in_lanes) gives it with that
-    /// system. One whose parameters have no answer, at once or later, fails
-    /// alone, with its last good state. It costs as much as many starts of one system,
-    /// but for putting the constants of the next one into a lane.
+    /// Every lane has the constants of its own system; a trajectory has the bits that
+    /// [`integrate_in_lanes`](Self::integrate_in_lanes) gives it with that system. A system without
+    /// finite rates, at once or later, fails alone, with its last valid state. The cost is that of
+    /// the same number of starts of one system, plus copying the constants of the next system into
+    /// a lane.
     ///
-    /// The systems are of one type, and differ in nothing but the constants that
-    /// [`LaneOde::on_scalar`] converts.
+    /// The systems have one type and differ only in the constants that [`LaneOde::on_scalar`]
+    /// converts.
     ///
     /// # Examples
     ///
-    /// Speed of a rod after ten seconds, by its friction:
+    /// Speed of a rod after ten seconds, depending on its friction:
     ///
     #[cfg_attr(feature = "macros", doc = "```")]
     #[cfg_attr(not(feature = "macros"), doc = "```ignore")]
@@ -187,9 +185,9 @@ impl Ensemble<'_> {
     }
 
     /// Integrates systems that differ in their constants, each from its own start, to the time
-    /// `end`, or until one of the endings is met: as
-    /// [`integrate_in_lanes_until`](Self::integrate_in_lanes_until), for what
-    /// [`integrate_models_in_lanes`](Self::integrate_models_in_lanes) takes.
+    /// `end`, or until one of the endings occurs. It combines
+    /// [`integrate_in_lanes_until`](Self::integrate_in_lanes_until) with the arguments of
+    /// [`integrate_models_in_lanes`](Self::integrate_models_in_lanes).
     pub fn integrate_models_in_lanes_until<T, O, M>(
         &self,
         method: &M,
@@ -205,20 +203,19 @@ impl Ensemble<'_> {
         self.ends(method, Cases::Pairs(releases), end, endings)
     }
 
-    /// The states of a system at the given times, from every start, in lanes as
+    /// Returns the states of a system at the given times, from every start, in lanes like
     /// [`integrate_in_lanes`](Self::integrate_in_lanes).
     ///
-    /// Times run one way from every start; those equal to it give the start itself.
-    /// The steps are those of [`integrate_in_lanes`](Self::integrate_in_lanes) to the
-    /// last time: states between their ends come from the dense output of the
-    /// method, in lanes too. Without times the end is the start.
+    /// Times must go in one direction from every start; times equal to the start's return the start
+    /// itself. The steps are those of [`integrate_in_lanes`](Self::integrate_in_lanes) to the last
+    /// time. States between step ends come from the dense output of the method, also computed in
+    /// lanes. Without times the end is the start.
     ///
-    /// Memory: beside that of the steps, one state for each time and start.
+    /// Memory, in addition to that of the steps: one state per time and start.
     ///
     /// # Examples
     ///
-    /// The samples of a trajectory end where it fails, and no other trajectory
-    /// is concerned:
+    /// The samples of a trajectory end where it fails; other trajectories are not affected:
     ///
     #[cfg_attr(feature = "macros", doc = "```")]
     #[cfg_attr(not(feature = "macros"), doc = "```ignore")]
@@ -252,9 +249,9 @@ impl Ensemble<'_> {
         self.samples(method, Cases::Starts(system, starts), times)
     }
 
-    /// The states at the given times of systems that differ in their constants,
-    /// each from its own start: as [`sample_in_lanes`](Self::sample_in_lanes), for
-    /// what [`integrate_models_in_lanes`](Self::integrate_models_in_lanes) takes.
+    /// Returns the states at the given times of systems that differ in their constants, each from
+    /// its own start. It combines [`sample_in_lanes`](Self::sample_in_lanes) with the arguments of
+    /// [`integrate_models_in_lanes`](Self::integrate_models_in_lanes).
     pub fn sample_models_in_lanes<T, O, M>(
         &self,
         method: &M,
@@ -269,7 +266,9 @@ impl Ensemble<'_> {
         self.samples(method, Cases::Pairs(releases), times)
     }
 
-    /// The same at times of its own for each: the last is its end.
+    /// Samples the trajectories of systems like
+    /// [`sample_models_in_lanes`](Self::sample_models_in_lanes), but with separate times for each
+    /// system; a trajectory ends at its last time.
     pub(crate) fn sample_models_at_own_times<T, O, M>(
         &self,
         method: &M,
@@ -317,7 +316,8 @@ impl Ensemble<'_> {
             .collect()
     }
 
-    /// Takes every case through the times to the end, in their order.
+    /// Integrates every trajectory through its output times to its end; returns the outcomes in
+    /// order.
     fn in_lanes<T, O, M>(
         &self,
         method: &M,
@@ -352,19 +352,19 @@ impl Ensemble<'_> {
     }
 }
 
-/// A trajectory at given times.
+/// Samples of a trajectory at given times.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Samples<T> {
     dimension: usize,
     values: Vec<T>,
-    /// End of the trajectory, or the reason for which it ended before.
+    /// Last state and report of the trajectory, or the error that ended it early.
     pub end: Result<Solution<T>, IntegrationError<T>>,
 }
 
 impl<T> Samples<T> {
-    /// The states at the times asked for, in their order: one for each time, or for
-    /// those up to the last good state where the trajectory failed, unless the
-    /// rates were not finite within its last step.
+    /// Returns the states at the requested times, in order: one per time. If the trajectory failed,
+    /// only those up to its last valid state, and none within its last step if the rates became
+    /// infinite or NaN there.
     pub fn states(&self) -> ChunksExact<'_, T> {
         self.values.chunks_exact(self.dimension.max(1))
     }

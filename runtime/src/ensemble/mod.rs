@@ -1,17 +1,15 @@
 //! Many trajectories at once, on all cores.
 //!
-//! An [`Ensemble`] hands items (initial conditions, parameter sets) to threads,
-//! one after the other, and gives the results back in the order of the items.
-//! The caller chooses the type of a result; an item that fails with an error is
-//! one `Err` among the results, and the others run on.
+//! An [`Ensemble`] distributes items (initial conditions, parameter sets) to threads one by one,
+//! and returns the results in the order of the items. The caller chooses the type of a result. An
+//! item that fails with an error is one `Err` among the results; the others continue.
 //!
-//! Models can be integrated in the lanes of vector registers, several
-//! trajectories at a time on each thread: many starts of one system
-//! ([`Ensemble::integrate_in_lanes`]) or systems that differ in their constants
-//! ([`Ensemble::integrate_models_in_lanes`]).
+//! Models can be integrated in the lanes of vector registers, several trajectories at a time on
+//! each thread: many starts of one system ([`Ensemble::integrate_in_lanes`]) or systems that differ
+//! in their constants ([`Ensemble::integrate_models_in_lanes`]).
 //!
-//! A trajectory is computed by one thread from its own input alone, so that
-//! results are the same bit for bit, whatever the number of threads.
+//! A trajectory is computed by one thread from its own input alone, so that the results are
+//! identical bit for bit for any number of threads.
 
 mod lanes;
 mod queue;
@@ -27,8 +25,8 @@ use crate::interruption::{self, SharedWatcher, Watcher};
 use crate::scalar::Real;
 use crate::system::{Ode, State};
 
-/// Time between two looks at threads that are waited for.
-const LOOK: std::time::Duration = std::time::Duration::from_micros(200);
+/// Interval at which a waiting thread checks if the others have finished.
+const CHECK_INTERVAL: std::time::Duration = std::time::Duration::from_micros(200);
 
 /// Computation of an ensemble.
 ///
@@ -79,7 +77,8 @@ impl Default for Ensemble<'_> {
 }
 
 impl<'a> Ensemble<'a> {
-    /// Takes as many threads as the system offers, without progress.
+    /// Creates an ensemble that uses as many threads as the system offers, without a progress
+    /// function.
     pub fn new() -> Self {
         Self {
             threads: None,
@@ -87,8 +86,8 @@ impl<'a> Ensemble<'a> {
         }
     }
 
-    /// Takes `threads` threads, though not more than the system offers, which more would
-    /// not make faster, and not more than there are items.
+    /// Uses at most `threads` threads. At most as many threads are used as the system offers,
+    /// because more would not be faster, and at most one per item.
     pub fn threads(self, threads: NonZeroUsize) -> Self {
         Self {
             threads: Some(threads),
@@ -96,8 +95,8 @@ impl<'a> Ensemble<'a> {
         }
     }
 
-    /// Calls `progress` with the number of items done, after each, from the
-    /// thread that did it: numbers may arrive out of order.
+    /// Calls `progress` with the number of finished items after each item, from the thread that
+    /// finished it. Numbers may arrive out of order.
     pub fn progress(self, progress: &'a (dyn Fn(usize) + Sync)) -> Self {
         Self {
             progress: Some(progress),
@@ -105,11 +104,11 @@ impl<'a> Ensemble<'a> {
         }
     }
 
-    /// `work(index, item)` for every item; results in the order of the items.
+    /// Computes `work(index, item)` for every item; returns the results in the order of the items.
     ///
-    /// Items are handed out one at a time, so that long ones do not wait for
-    /// each other. A panic in `work` ends the whole call with that panic: what
-    /// can fail should return an error.
+    /// Items are distributed one at a time, so that threads stay busy if items take different
+    /// times. A panic in `work` ends the whole call with that panic; work that can fail should
+    /// return an error.
     pub fn map<I: Sync, R: Send>(
         &self,
         items: &[I],
@@ -127,7 +126,7 @@ impl<'a> Ensemble<'a> {
         })
     }
 
-    /// Runs `worker` on every thread, for results in the order of their indices.
+    /// Runs `worker` on every thread; returns all results in the order of the items' indices.
     fn on_threads<R: Send>(
         &self,
         items: usize,
@@ -156,7 +155,7 @@ impl<'a> Ensemble<'a> {
             let mut results = worker();
             for other in others {
                 while watcher.is_some() && !other.is_finished() {
-                    thread::sleep(LOOK);
+                    thread::sleep(CHECK_INTERVAL);
                     interruption::look();
                 }
                 match other.join() {

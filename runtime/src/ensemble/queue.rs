@@ -1,8 +1,8 @@
-//! Handing out items to threads.
+//! Distribution of items to threads.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// The items that no thread has taken yet, and the number of those done.
+/// Items that no thread has taken yet, and a count of finished items.
 pub(super) struct Queue<'a> {
     items: usize,
     next: AtomicUsize,
@@ -10,9 +10,9 @@ pub(super) struct Queue<'a> {
     progress: Option<&'a (dyn Fn(usize) + Sync)>,
 }
 
-// The counters carry no data: relaxed order suffices.
+// The counters carry no other data, so relaxed ordering suffices.
 impl<'a> Queue<'a> {
-    /// A queue of `items` items, none of them taken.
+    /// Creates a queue of `items` items, none of them taken.
     pub(super) fn new(items: usize, progress: Option<&'a (dyn Fn(usize) + Sync)>) -> Self {
         Self {
             items,
@@ -22,13 +22,13 @@ impl<'a> Queue<'a> {
         }
     }
 
-    /// The index of an item that is this thread's from now on.
+    /// Takes the next item for this thread; returns its index, or `None` if there are no more.
     pub(super) fn next(&self) -> Option<usize> {
         let index = self.next.fetch_add(1, Ordering::Relaxed);
         (index < self.items).then_some(index)
     }
 
-    /// Counts an item that is done.
+    /// Counts a finished item.
     pub(super) fn done(&self) {
         let done = self.done.fetch_add(1, Ordering::Relaxed) + 1;
         if let Some(progress) = self.progress {

@@ -1,26 +1,22 @@
-//! Choosing the size of the next step.
-//!
-//! Shared by all adaptive methods: a proportional-integral controller and
-//! Hairer's estimate of the first step. Errors are scaled: one is the largest
-//! that the tolerances allow.
+//! Step-size control of adaptive methods: a proportional-integral controller, and Hairer's estimate
+//! of the first step. Errors are scaled: 1 is the largest error that the tolerances allow.
 
 use super::checkpoint::Memory;
 use super::options::Options;
 use crate::scalar::Real;
 
-/// The constants of a method's step-size control.
+/// Constants of a method's step-size control.
 #[derive(Clone, Copy, Debug)]
 pub struct ControlConstants {
-    /// The scaled error behaves as the step to this power.
+    /// Order of the method: the exponent with which the scaled error grows with the step length.
     pub(crate) order: u32,
-    /// Factor that keeps the aim below the limit.
+    /// Safety factor that multiplies the step predicted for an error of exactly 1.
     pub(crate) safety: f64,
-    /// A step is at least this multiple of the one before.
+    /// Smallest ratio of a step to the step before.
     pub(crate) smallest_factor: f64,
-    /// A step is at most this multiple of the one before.
+    /// Largest ratio of a step to the step before.
     pub(crate) largest_factor: f64,
-    /// Part of the integral gain that the proportional exponent gives up, per
-    /// unit of beta.
+    /// Factor by which `beta`, the proportional gain, reduces the integral gain.
     pub(crate) beta_share: f64,
 }
 
@@ -37,8 +33,8 @@ pub(crate) struct StepControl<T> {
 }
 
 impl<T: Real> StepControl<T> {
-    /// A controller without memory of earlier steps; [`Options::beta`] of zero
-    /// makes it the elementary one.
+    /// Creates a controller without memory of earlier steps. If [`Options::beta`] is zero, it is
+    /// the elementary (integral) controller.
     pub(crate) fn new(constants: ControlConstants, options: &Options<T>) -> Self {
         Self {
             constants,
@@ -55,14 +51,14 @@ impl<T: Real> StepControl<T> {
         self.after_rejection = false;
     }
 
-    /// Saves or restores what it knows of earlier steps.
+    /// Saves or restores the controller's memory of earlier steps.
     pub(crate) fn remember(&mut self, memory: &mut Memory<T>) {
         memory.number(&mut self.previous_error);
         memory.flag(&mut self.after_rejection);
     }
 
-    /// Judges a step by its scaled error: it was `made` long and `planned` to be,
-    /// unless it is the `last` one, which the end of the run cuts short.
+    /// Accepts or rejects a step from its scaled error norm. `made` and `planned` are the step's
+    /// actual and planned lengths; they differ only if the step is the `last` of the run.
     #[inline(always)]
     pub(crate) fn judge(&mut self, error: T, made: T, (planned, last): (T, bool)) -> Verdict<T> {
         // An error that is NaN must not pass either.
@@ -70,7 +66,7 @@ impl<T: Real> StepControl<T> {
             return Verdict::Rejected(made * self.reject(error));
         }
         let proposed = made * self.accept(error);
-        // A step cut short by the end says nothing against the planned one.
+        // The end of the run shortened this step, which is no reason to shorten the planned one.
         let next = if last {
             proposed.max(planned)
         } else {
@@ -79,11 +75,11 @@ impl<T: Real> StepControl<T> {
         Verdict::Accepted(self.longest.map_or(next, |longest| next.min(longest)))
     }
 
-    /// Factor from a step that was accepted with scaled error `error` <= 1 to
-    /// the next one.
+    /// Returns the ratio of the next step's length to that of an accepted step with the scaled
+    /// error `error` ≤ 1.
     fn accept(&mut self, error: T) -> T {
         let largest = if self.after_rejection {
-            // The error model failed a moment ago: do not trust it to grow.
+            // The step before was rejected, so the step must not grow yet.
             T::ONE
         } else {
             T::from_f64(self.constants.largest_factor)
@@ -94,14 +90,14 @@ impl<T: Real> StepControl<T> {
         }
         self.previous_error = error.max(T::from_f64(SMALLEST_REMEMBERED_ERROR));
         self.after_rejection = false;
-        // Division by a growth of zero gives infinity, which the bound takes.
+        // A growth of zero gives infinity, which the upper bound replaces.
         (T::from_f64(self.constants.safety) / growth)
             .min(largest)
             .max(T::from_f64(self.constants.smallest_factor))
     }
 
-    /// Factor from a step that was rejected to the one that is tried in its
-    /// place. An error that is not finite calls for the smallest factor.
+    /// Returns the ratio of the next trial step's length to that of a rejected step. An infinite or
+    /// NaN error gives the smallest ratio.
     fn reject(&mut self, error: T) -> T {
         self.after_rejection = true;
         let smallest = T::from_f64(self.constants.smallest_factor);
@@ -111,7 +107,7 @@ impl<T: Real> StepControl<T> {
         (T::from_f64(self.constants.safety) / self.error_power(error)).max(smallest)
     }
 
-    /// error^(1/order - share beta).
+    /// Computes the power of a scaled error in the controller: error^(1/order − beta_share · beta).
     fn error_power(&self, error: T) -> T {
         if self.beta > T::ZERO {
             let share = T::from_f64(self.constants.beta_share);
@@ -123,19 +119,20 @@ impl<T: Real> StepControl<T> {
     }
 }
 
-/// The judgement on a step, with the length of the one to try next.
+/// Result of the step-size control: a step is accepted or rejected, with the length of the step to
+/// try next.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Verdict<T> {
     Accepted(T),
     Rejected(T),
 }
 
-/// Below this the memory of the controller does not reach: a step that was far
-/// too short says little about the next.
+/// Smallest scaled error that the controller remembers: a step that was far too short says little
+/// about the next.
 const SMALLEST_REMEMBERED_ERROR: f64 = 1e-4;
 
-/// value^(1/order). Square roots where they suffice: they are cheaper than a
-/// power and correctly rounded, so a run does not depend on a library's `pow`.
+/// Computes value^(1/order), by square roots if they suffice: they are cheaper than `pow` and
+/// correctly rounded, so that a run does not depend on a library's `pow`.
 fn root<T: Real>(value: T, order: u32) -> T {
     if order.is_power_of_two() {
         (0..order.trailing_zeros()).fold(value, |value, _| value.sqrt())
@@ -144,8 +141,8 @@ fn root<T: Real>(value: T, order: u32) -> T {
     }
 }
 
-/// The problem as the estimate of the first step sees it. All norms are Euclidean
-/// norms of components divided by their tolerance.
+/// Input of the first-step estimate. Norms are Euclidean norms of components divided by their
+/// tolerances.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct FirstStep<T> {
     /// Norm of the state.
@@ -157,8 +154,9 @@ pub(crate) struct FirstStep<T> {
 }
 
 impl<T: Real> FirstStep<T> {
-    /// Length of an explicit Euler step whose increment is small beside the
-    /// state. Hairer, Nørsett, Wanner, *Solving ODEs I*, section II.4.
+    /// Returns the length of an explicit Euler step whose increment is small compared with the
+    /// state, as a first estimate of the step length. Hairer, Nørsett, Wanner, *Solving ODEs I*,
+    /// section II.4.
     pub(crate) fn euler(&self) -> T {
         let negligible = T::from_f64(1e-5);
         let step = if self.rates <= negligible || self.state <= negligible {
@@ -169,7 +167,7 @@ impl<T: Real> FirstStep<T> {
         step.min(self.longest)
     }
 
-    /// First step of a method of order `order`, from the norm of the change of
+    /// Returns the first step of a method of order `order`, from the norm of the change of the
     /// rates over the Euler step.
     pub(crate) fn refined(&self, euler: T, change_of_rates: T, order: u32) -> T {
         let curvature = (change_of_rates / euler).max(self.rates);

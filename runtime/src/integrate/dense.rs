@@ -1,4 +1,4 @@
-//! Values inside an accepted step.
+//! Dense output: the solution at any time within an accepted step.
 
 use alloc::vec::Vec;
 use core::fmt;
@@ -9,27 +9,26 @@ use super::piece::Piece;
 use super::report::Report;
 use crate::scalar::Real;
 
-/// A step that a method has made.
+/// A step that a method has completed, with its interpolating polynomial.
 pub(crate) trait Made<T> {
-    /// Times at its start and at its end.
+    /// Returns the times at the start and at the end of the step.
     fn times(&self) -> [T; 2];
 
-    /// The step and its polynomial.
+    /// Returns the step with its interpolating polynomial.
     fn piece(&self) -> Piece<'_, T>;
 
-    /// Computes what the polynomial needs, if that has not been done.
+    /// Computes the coefficients of the polynomial, once per step.
     fn prepare(&mut self) -> Result<(), NonFinite<T>>;
 
-    /// The account of the run.
+    /// Returns the report of the run so far.
     fn report(&self) -> &Report<T>;
 }
 
 /// An accepted step: its two ends, and the solution between them.
 ///
-/// Between its ends the solution is a polynomial whose order the method
-/// states; it is continuous from step to step. What its coefficients cost
-/// beyond the step itself is spent when the first value is asked for and never
-/// before.
+/// Within the step the solution is a polynomial, whose order depends on the method; it is
+/// continuous from step to step. Additional evaluations for its coefficients are made only when the
+/// first value is requested.
 pub struct DenseStep<'a, T> {
     made: &'a mut dyn Made<T>,
 }
@@ -39,45 +38,45 @@ impl<'a, T: Real> DenseStep<'a, T> {
         Self { made }
     }
 
-    /// Time at which the step starts.
+    /// Returns the time at which the step starts.
     pub fn start_time(&self) -> T {
         self.made.times()[0]
     }
 
-    /// Time at which the step ends; before the start when running backwards.
+    /// Returns the time at which the step ends; smaller than the start time in a run backwards.
     pub fn end_time(&self) -> T {
         self.made.times()[1]
     }
 
-    /// State at the start of the step.
+    /// Returns the state at the start of the step.
     pub fn start(&self) -> &[T] {
         self.made.piece().start
     }
 
-    /// State at the end of the step.
+    /// Returns the state at the end of the step.
     pub fn end(&self) -> &[T] {
         self.made.piece().end
     }
 
-    /// The run's account up to and with this step.
+    /// Returns the report of the run up to the end of this step.
     pub fn report(&self) -> &Report<T> {
         self.made.report()
     }
 
-    /// Returns true if `time` lies within the step, its ends included.
+    /// Returns true if `time` lies within the step, including its ends.
     pub fn contains(&self, time: T) -> bool {
         let [start, end] = self.made.times();
         (start <= time && time <= end) || (end <= time && time <= start)
     }
 
-    /// Writes the solution at `time` to `out`. At the ends of the step it is
-    /// the state there, bit for bit.
+    /// Writes the solution at `time` to `out`. At the ends of the step this is the state there, bit
+    /// for bit.
     ///
     /// # Errors
     ///
-    /// [`DenseError`] if `time` is outside the step (NaN included), if `out`
-    /// has not the length of the state, or if the right-hand side is not finite
-    /// at one of the additional points that the method needs.
+    /// [`DenseError`] if `time` is outside the step (or NaN), if the length of `out` differs from
+    /// that of the state, or if the right-hand side is not finite at one of the additional
+    /// evaluations that the method needs.
     pub fn eval(&mut self, time: T, out: &mut [T]) -> Result<(), DenseError<T>> {
         let ends = self.made.times();
         let piece = self.made.piece();
@@ -93,8 +92,8 @@ impl<'a, T: Real> DenseStep<'a, T> {
         Ok(())
     }
 
-    /// Writes the derivative of the solution at `time` to `out`: of the dense output,
-    /// whose order is one less than that of its values.
+    /// Writes the derivative of the dense output at `time` to `out`. Its order is one less than
+    /// that of the values.
     ///
     /// # Errors
     ///
@@ -106,7 +105,7 @@ impl<'a, T: Real> DenseStep<'a, T> {
         self.made.piece().derivative_at(ends, time, out)
     }
 
-    /// The polynomial of the step.
+    /// Returns the polynomial of the step, after computing its coefficients if necessary.
     pub(crate) fn polynomial(&mut self) -> Result<Piece<'_, T>, DenseError<T>> {
         self.made.prepare()?;
         Ok(self.made.piece())
@@ -114,7 +113,7 @@ impl<'a, T: Real> DenseStep<'a, T> {
 }
 
 impl<T: Real> Piece<'_, T> {
-    /// Writes the solution at `time` in a step between the times `ends`.
+    /// Writes the solution at `time`, for a step that lasts from `ends[0]` to `ends[1]`.
     pub(crate) fn at(&self, ends: [T; 2], time: T, out: &mut [T]) -> Result<(), DenseError<T>> {
         let fraction = self.fraction(ends, time, out)?;
         if time == ends[1] {
@@ -127,8 +126,8 @@ impl<T: Real> Piece<'_, T> {
         Ok(())
     }
 
-    /// Writes the derivative of the solution at `time` in a step between the times
-    /// `ends`.
+    /// Writes the derivative of the solution at `time`, for a step that lasts from `ends[0]` to
+    /// `ends[1]`.
     pub(crate) fn derivative_at(
         &self,
         ends: [T; 2],
@@ -143,7 +142,8 @@ impl<T: Real> Piece<'_, T> {
         Ok(())
     }
 
-    /// The fraction of a step between the times `ends` at `time`.
+    /// Returns the position of `time` within the step from `start` to `end`, as a fraction from 0
+    /// to 1. Fails if `time` is outside the step or `out` has the wrong length.
     fn fraction(&self, [start, end]: [T; 2], time: T, out: &[T]) -> Result<T, DenseError<T>> {
         if out.len() != self.start.len() {
             return Err(DenseError::Length {
@@ -178,28 +178,27 @@ impl<T> From<NonFinite<T>> for DenseError<T> {
     }
 }
 
-/// Why a step has no value to give.
+/// Reason why a step has no dense output at a time.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum DenseError<T> {
-    /// The time is outside the step: the polynomial holds nowhere else.
+    /// The time is outside the step, where the polynomial is not valid.
     OutsideStep {
-        /// The time asked for.
+        /// Requested time.
         time: T,
         /// Start of the step.
         start: T,
         /// End of the step.
         end: T,
     },
-    /// The slice to write to has not the length of the state.
+    /// The length of the output slice differs from that of the state.
     Length {
         /// Length of the state.
         expected: usize,
-        /// Length given.
+        /// Length of the output slice.
         found: usize,
     },
-    /// The right-hand side is not finite at a point that the dense output
-    /// needs.
+    /// The right-hand side is infinite or NaN at an additional evaluation of the dense output.
     NonFinite {
         /// Time of the evaluation.
         time: T,

@@ -1,6 +1,6 @@
-//! Evaluations of a right-hand side.
+//! Evaluation of right-hand sides, with counts of the evaluations and checks of the results.
 
-// A sealed trait names the types.
+// The types are public because a sealed trait mentions them.
 #![allow(unreachable_pub)]
 
 use alloc::vec::Vec;
@@ -11,8 +11,7 @@ use super::right_hand_side::RightHandSide;
 use crate::scalar::Real;
 use crate::system::{Ode, Workspace};
 
-/// A system under way: its equations, the memory that they need, and the account of
-/// its run.
+/// A system during a run: its equations, their workspace, and the report of the run.
 #[derive(Debug)]
 pub struct Evaluator<'r, T, O: ?Sized> {
     pub(crate) ode: &'r O,
@@ -22,17 +21,17 @@ pub struct Evaluator<'r, T, O: ?Sized> {
 }
 
 impl<T: Real, O: Ode<T> + ?Sized> Evaluator<'_, T, O> {
-    /// Writes the rates of `state`, finite or not.
+    /// Writes the rates of change of `state`, without checking that they are finite.
     #[inline(always)]
     pub(crate) fn write(&mut self, time: T, state: &[T], rates: &mut [T]) {
         self.report.evaluations += 1;
         self.ode.rates_with(self.workspace, time, state, rates);
     }
 
-    /// Writes the rates of `state`.
+    /// Writes the rates of change of `state` at `time`.
     ///
     /// # Errors
-    /// Gives time and state back where the rates are not finite.
+    /// Returns the time and the state if a rate is infinite or NaN.
     #[inline(always)]
     pub(crate) fn evaluate(
         &mut self,
@@ -74,7 +73,7 @@ impl<T: Real, O: Ode<T> + ?Sized> RightHandSide<T> for Evaluator<'_, T, O> {
     }
 }
 
-/// A place where state or rates are not finite.
+/// Time and state at which the state or its rates are infinite or NaN.
 #[derive(Clone, Debug, PartialEq)]
 pub struct NonFinite<T> {
     /// Time of the evaluation.
@@ -84,7 +83,7 @@ pub struct NonFinite<T> {
 }
 
 impl<T: Real> NonFinite<T> {
-    /// The place at `time` with the state `values`.
+    /// Creates the record of `time` and `values`.
     #[cold]
     pub(crate) fn new(time: T, values: &[T]) -> Self {
         let values = values.to_vec();

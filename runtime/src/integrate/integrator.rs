@@ -1,4 +1,4 @@
-//! The trait that all methods have in common.
+//! The trait that all integration methods implement.
 
 use alloc::vec::Vec;
 use core::convert::Infallible;
@@ -18,15 +18,15 @@ use crate::system::{Ode, State};
 
 /// A method that can integrate the system `O`.
 ///
-/// The system is a parameter of the trait, not of its functions, so that a
-/// method may ask for more than rates: one that works on Taylor coefficients
-/// serves the systems that offer them.
+/// The system is a parameter of the trait and not of its functions, so that a method can require
+/// more than rates: the Taylor series method integrates only systems that provide Taylor
+/// coefficients.
 ///
-/// No other crate can implement it.
+/// Other crates cannot implement this trait.
 ///
 /// # Examples
 ///
-/// Code that leaves the method to its caller:
+/// A function whose caller chooses the method:
 ///
 /// ```
 /// use branched_pendulum::prelude::*;
@@ -47,20 +47,19 @@ use crate::system::{Ode, State};
 /// # Ok::<(), IntegrationError<f64>>(())
 /// ```
 pub trait Integrator<T: Real, O: Ode<T> + ?Sized> {
-    /// The method at work.
+    /// Data of the method that lasts for a run.
     #[doc(hidden)]
     type Steps: Steps<T, O>;
 
-    /// Returns the memory for a run from `start`, which has been checked.
+    /// Creates the data for a run from `start`, which has been checked.
     ///
     /// # Errors
     ///
-    /// [`InputError`]: the method cannot do what its options ask for.
+    /// [`InputError`] if the options do not suit the method or the equations.
     #[doc(hidden)]
     fn steps(&self, ode: &O, start: &State<T>) -> Result<Self::Steps, InputError<T>>;
 
-    /// Begins a motion that goes on step by step, or frame by frame, as the caller
-    /// asks: [`Stepper`].
+    /// Starts a motion that the caller advances step by step or frame by frame, as a [`Stepper`].
     ///
     /// # Errors
     ///
@@ -73,8 +72,8 @@ pub trait Integrator<T: Real, O: Ode<T> + ?Sized> {
         Stepper::new(self, ode, start)
     }
 
-    /// Takes a motion up where [`Stepper::checkpoint`] laid it down. Method and equations
-    /// must be those of then, which nothing can check but the lengths.
+    /// Continues a motion from a checkpoint made by [`Stepper::checkpoint`]. Method and equations
+    /// must be the same as before; only the lengths of their data are checked.
     ///
     /// # Errors
     ///
@@ -91,8 +90,8 @@ pub trait Integrator<T: Real, O: Ode<T> + ?Sized> {
         Stepper::resumed(self, ode, checkpoint)
     }
 
-    /// Integrates from `start` to the time `end`, which may lie before it, and returns the
-    /// state there: [`integrate`](Self::integrate) with nobody watching.
+    /// Integrates from `start` to the time `end`, which may be earlier, and returns the state
+    /// there. This is [`integrate`](Self::integrate) without an observer.
     ///
     /// # Errors
     ///
@@ -114,17 +113,17 @@ pub trait Integrator<T: Real, O: Ode<T> + ?Sized> {
         self.integrate(ode, start, end, |_| ControlFlow::Continue(()))
     }
 
-    /// Integrates from `start` to the time `end`, which may lie before it.
+    /// Integrates from `start` to the time `end`, which may be earlier, and calls an observer after
+    /// each step.
     ///
-    /// `observer` sees every accepted step and ends the run with
-    /// [`ControlFlow::Break`]; the last state is then the end of that step. A
-    /// span of zero returns the start at once, without an evaluation.
+    /// `observer` is called with every accepted step and can end the run with
+    /// [`ControlFlow::Break`]; the last state is then the end of that step. If `end` is the start
+    /// time, the start is returned without an evaluation.
     ///
     /// # Errors
     ///
-    /// [`IntegrationError`]: a request that makes no sense, rates that are not
-    /// finite, a step that becomes too small, too many steps. All but the
-    /// first carry the last good state.
+    /// [`IntegrationError`]: an invalid argument, rates that are not finite, a step that becomes
+    /// too small, too many steps. All but the first carry the last good state.
     fn integrate(
         &self,
         ode: &O,
@@ -136,12 +135,13 @@ pub trait Integrator<T: Real, O: Ode<T> + ?Sized> {
         Ok(self.try_integrate(ode, start, end, observer)?)
     }
 
-    /// [`integrate`](Self::integrate) with an observer that may fail: that ends the run.
+    /// Integrates like [`integrate`](Self::integrate), with an observer that can return an error,
+    /// which ends the run.
     ///
     /// # Errors
     ///
-    /// As [`integrate`](Self::integrate), and [`RunError::Observer`] with the error of
-    /// the observer and the state at the end of the step that it saw.
+    /// As [`integrate`](Self::integrate), and [`RunError::Observer`] with the error of the observer
+    /// and the state at the end of the step that it was called with.
     fn try_integrate<E>(
         &self,
         ode: &O,
@@ -163,20 +163,19 @@ pub trait Integrator<T: Real, O: Ode<T> + ?Sized> {
         Ok(run.solution(StopReason::EndReached))
     }
 
-    /// Integrates from `start` through the given times, in their order, and
-    /// calls `visit` with each time and the state there.
+    /// Integrates from `start` through the given times, in their order, and calls `visit` with each
+    /// time and the state there.
     ///
-    /// The states come from the dense output: the steps are those of
-    /// [`integrate`](Self::integrate) to the last time, however many times lie
-    /// between. Times equal to the start are visited with the start itself;
-    /// equal times are visited as often as they stand there. Without times the
-    /// start is returned.
+    /// The states come from the dense output. The steps are those of
+    /// [`integrate`](Self::integrate) to the last time and do not depend on the times between.
+    /// A time equal to the start is visited with the start itself; repeated times are visited
+    /// repeatedly. If `times` is empty, the start is returned.
     ///
     /// # Errors
     ///
-    /// As [`integrate`](Self::integrate); times must be finite and run one way
-    /// from the start. After an error all times up to the last good state have
-    /// been visited, unless the rates were not finite within the last step.
+    /// As [`integrate`](Self::integrate); times must be finite and all increase, or all decrease,
+    /// from the start. After an error all times up to the last good state have been visited, unless
+    /// the rates were not finite within the last step.
     ///
     /// # Examples
     ///
@@ -214,12 +213,13 @@ pub trait Integrator<T: Real, O: Ode<T> + ?Sized> {
         Ok(self.try_sample(ode, start, times, visit)?)
     }
 
-    /// [`sample`](Self::sample) with a visitor that may fail: that ends the run.
+    /// Integrates like [`sample`](Self::sample), with a function `visit` that can return an error,
+    /// which ends the run.
     ///
     /// # Errors
     ///
-    /// As [`sample`](Self::sample), and [`RunError::Observer`] with the error of the
-    /// visitor and the state that it saw.
+    /// As [`sample`](Self::sample), and [`RunError::Observer`] with the error of the visitor and
+    /// the state that it was called with.
     ///
     /// # Examples
     ///
@@ -270,8 +270,7 @@ pub trait Integrator<T: Real, O: Ode<T> + ?Sized> {
         Ok(run.solution(StopReason::EndReached))
     }
 
-    /// The states at the given times, one for each: [`sample`](Self::sample) into a
-    /// vector.
+    /// Returns the states at the given times, as [`sample`](Self::sample) computes them.
     ///
     /// # Errors
     ///
@@ -289,12 +288,12 @@ pub trait Integrator<T: Real, O: Ode<T> + ?Sized> {
         Ok(states)
     }
 
-    /// The motion from `start` to the time `end`, to be asked for its state at any time
+    /// Returns the motion from `start` to the time `end`, which can be evaluated at any time
     /// between.
     ///
     /// # Errors
     ///
-    /// As [`integrate`](Self::integrate). To keep what came before an error,
+    /// As [`integrate`](Self::integrate). To keep the part before an error,
     /// [`push`](Trajectory::push) the steps in an observer.
     fn trajectory(
         &self,
@@ -314,21 +313,21 @@ pub trait Integrator<T: Real, O: Ode<T> + ?Sized> {
     }
 
     /// Integrates from `start` to the time `end` and calls `visit` with every
-    /// zero crossing of the functions `events`, in their order along the run.
+    /// zero crossing of the functions `events`, in the order of the run.
     ///
     /// [`ControlFlow::Break`] and [`Event::with_terminal`] end the run there: the last
     /// state is then that of the crossing. All other crossings at that time, to its
     /// rounding, are reported before the run ends, so that a run that starts from that
     /// state, forwards or backwards, reports none again and misses none.
     ///
-    /// No crossing is reported where a run starts on a zero, to the rounding of the time:
-    /// the function has the side to which it leaves. A function that only touches zero is
-    /// reported if one of the places looked at is a zero exactly.
+    /// If a run starts at a zero (to the rounding of the time), no crossing is reported there. A
+    /// function that touches zero without changing sign is reported only if a check hits the zero
+    /// exactly.
     ///
     /// # Errors
     ///
-    /// As [`integrate`](Self::integrate), and [`IntegrationError::Event`] where
-    /// a function is NaN.
+    /// As [`integrate`](Self::integrate), and [`IntegrationError::Event`] if a
+    /// function returns NaN.
     ///
     /// # Examples
     ///
@@ -373,14 +372,13 @@ pub trait Integrator<T: Real, O: Ode<T> + ?Sized> {
         Ok(self.try_integrate_with_events(ode, start, end, events, visit)?)
     }
 
-    /// [`integrate_with_events`](Self::integrate_with_events) with a visitor that may
-    /// fail: that ends the run.
+    /// Integrates like [`integrate_with_events`](Self::integrate_with_events), with a function
+    /// `visit` that can return an error, which ends the run.
     ///
     /// # Errors
     ///
-    /// As [`integrate_with_events`](Self::integrate_with_events), and
-    /// [`RunError::Observer`] with the error of the visitor and the state at the
-    /// crossing.
+    /// As [`integrate_with_events`](Self::integrate_with_events), and [`RunError::Observer`] with
+    /// the error of the visitor and the state at the crossing.
     fn try_integrate_with_events<E>(
         &self,
         ode: &O,

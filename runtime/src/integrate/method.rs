@@ -1,4 +1,4 @@
-//! Methods by name, for programs whose users choose one.
+//! Choice of an integration method by its name, for programs whose users choose one.
 
 use alloc::boxed::Box;
 use alloc::format;
@@ -20,7 +20,7 @@ use super::taylor::Taylor;
 use crate::scalar::Real;
 use crate::system::{State, TaylorOde};
 
-/// A method by its name, without its tolerance or its step.
+/// Name of an integration method, without its tolerance or step length.
 ///
 /// Written and parsed as `dop853`, `gauss8` and so on, in capitals or not;
 /// [`ALL`](Self::ALL) lists them.
@@ -45,7 +45,6 @@ use crate::system::{State, TaylorOde};
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[non_exhaustive]
 pub enum Method {
     /// [`Rk4`].
     Rk4,
@@ -63,21 +62,21 @@ pub enum Method {
     Animation,
 }
 
-/// Declares the list of all methods with their names, as they are parsed and for titles.
+/// Declares all methods, each with the name that is parsed and the name for titles.
 macro_rules! methods {
     ($($method:ident $(($order:ident))?: $word:literal, $title:literal;)+) => {
         impl Method {
             /// All methods.
             pub const ALL: &[Self] = &[$(Self::$method $((GaussOrder::$order))?),+];
 
-            /// The name that is parsed.
+            /// Returns the name of the method as it is parsed.
             fn word(self) -> &'static str {
                 match self {
                     $(Self::$method $((GaussOrder::$order))? => $word,)+
                 }
             }
 
-            /// The name for titles and legends: `Dormand–Prince 8(5,3)`.
+            /// Returns the name for titles and legends, such as `Dormand–Prince 8(5,3)`.
             pub fn title(self) -> &'static str {
                 match self {
                     $(Self::$method $((GaussOrder::$order))? => $title,)+
@@ -100,12 +99,58 @@ methods! {
     Animation: "animation", "midpoint";
 }
 
-/// Tolerance below which series are summed with their roundings.
+/// Tolerance below which the Taylor method uses compensated sums.
 const COMPENSATED_BELOW: f64 = 1e-12;
 
+/// Largest number of components of a state for which Taylor series are the fastest at any tolerance:
+/// ten links.
+const SMALL_STATE: usize = 20;
+
+/// Largest number of components for which they are the fastest at 1e-6 and below: a hundred links.
+/// Larger states take them below 1e-9 only.
+const LARGE_STATE: usize = 200;
+
 impl Method {
-    /// Returns the expression that makes this method as [`Method::with`] does, in Rust, on
-    /// the scalar of that name: `Dop853::new(Options::with_tolerance(1e-10))`.
+    /// Returns the method that usually takes the least time for one motion of this system at a
+    /// relative tolerance.
+    ///
+    /// The choice is [`Taylor`] if the system has Taylor series and is small enough for the
+    /// tolerance: up to 20 components at any tolerance, up to 200 at 1e-6 and below, any number below
+    /// 1e-9. Otherwise it is that of [`for_lanes`](Self::for_lanes). The limits come from the tables of
+    /// `docs/integrators.md`; `branched-pendulum advise` measures the candidates on one machine. The
+    /// choice does not consider stiff systems, which need [`Gauss`].
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// use branched_pendulum::integrate::Method;
+    /// use branched_pendulum::system::{OdeFn, RatesOnly};
+    ///
+    /// let decay = OdeFn::new(1, |_time: f64, y: &[f64], rates: &mut [f64]| rates[0] = -y[0]);
+    /// assert_eq!(Method::for_model(&RatesOnly(&decay), 1e-9), Method::Verner98);
+    /// assert_eq!(Method::for_model(&RatesOnly(&decay), 1e-3), Method::Dop853);
+    /// ```
+    pub fn for_model<T>(system: &(impl TaylorOde<T> + ?Sized), tolerance: f64) -> Self {
+        let size = system.dimension();
+        let series =
+            size <= SMALL_STATE || size <= LARGE_STATE && tolerance <= 1e-6 || tolerance < 1e-9;
+        match system.has_series() && series {
+            true => Self::Taylor,
+            false => Self::for_lanes(tolerance),
+        }
+    }
+
+    /// Returns the method that usually takes the least time for many motions that are integrated
+    /// in the lanes of vector registers: [`Dop853`] at 1e-4 and above, and [`Verner98`] below.
+    pub fn for_lanes(tolerance: f64) -> Self {
+        match tolerance >= 1e-4 {
+            true => Self::Dop853,
+            false => Self::Verner98,
+        }
+    }
+
+    /// Returns the Rust expression that builds this method like [`Method::with`], for the scalar
+    /// type named `scalar`: `Dop853::new(Options::with_tolerance(1e-10))`.
     #[must_use]
     pub fn as_source(self, scalar: &str, setting: f64) -> String {
         let options = match self {
@@ -129,54 +174,55 @@ impl Method {
         }
     }
 
-    /// Returns true if the method takes a tolerance; the others take a step.
+    /// Returns true if the method takes a tolerance, false if it takes a step length.
     pub fn is_adaptive(self) -> bool {
-        matches!(
-            self,
-            Self::Dopri5 | Self::Dop853 | Self::Verner98 | Self::Taylor
-        )
-    }
-
-    /// The method with the tolerance `setting`, or with steps of that length,
-    /// all else by default.
-    ///
-    /// [`Taylor`] carries the rounding errors of its sums along at tolerances
-    /// below 1e-12, where they begin to count.
-    pub fn with<T: Real>(self, setting: T) -> AnyIntegrator<T> {
-        if self.is_adaptive() {
-            let near_rounding = self == Self::Taylor && setting.to_f64() < COMPENSATED_BELOW;
-            self.with_options(Options {
-                compensated: near_rounding,
-                ..Options::with_tolerance(setting)
-            })
-        } else {
-            self.fixed(setting)
+        match self {
+            Self::Dopri5 | Self::Dop853 | Self::Verner98 | Self::Taylor => true,
+            Self::Rk4 | Self::Gauss(_) | Self::Animation => false,
         }
     }
 
-    /// The method with these options. One that takes a step has no use for
-    /// them but the step's length, [`Options::initial_step`], and
-    /// [`Options::step_limit`].
+    /// Returns the method with the tolerance `setting` or, if it is not adaptive, with steps of the
+    /// length `setting`; all other options have their defaults.
+    ///
+    /// [`Taylor`] uses compensated sums at tolerances below 1e-12, where rounding begins to matter.
+    pub fn with<T: Real>(self, setting: T) -> AnyIntegrator<T> {
+        let near_rounding = self == Self::Taylor && setting.to_f64() < COMPENSATED_BELOW;
+        let tolerance = Options {
+            compensated: near_rounding,
+            ..Options::with_tolerance(setting)
+        };
+        self.made_of(tolerance, setting)
+    }
+
+    /// Returns a finer setting, for a comparison run: a hundredth of a tolerance (but at least
+    /// 1e-15, unless `setting` is smaller), or half of a step length.
+    pub fn finer(self, setting: f64) -> f64 {
+        match self.is_adaptive() {
+            true => (0.01 * setting).max(setting.min(1e-15)),
+            false => 0.5 * setting,
+        }
+    }
+
+    /// Returns the method with these options. A method with constant steps uses only
+    /// [`Options::initial_step`], as the step length, and [`Options::step_limit`].
     pub fn with_options<T: Real>(self, options: Options<T>) -> AnyIntegrator<T> {
+        // Without a step the run is refused, as it is with any invalid step.
+        let (step, limit) = (options.initial_step.unwrap_or(T::NAN), options.step_limit);
+        self.made_of(options, step).with_step_limit(limit)
+    }
+
+    /// Returns the method with these options or, if it is not adaptive, with steps of length
+    /// `step`.
+    fn made_of<T: Real>(self, options: Options<T>, step: T) -> AnyIntegrator<T> {
         match self {
             Self::Dopri5 => AnyIntegrator::Dopri5(Dopri5::new(options)),
             Self::Dop853 => AnyIntegrator::Dop853(Dop853::new(options)),
             Self::Verner98 => AnyIntegrator::Verner98(Verner98::new(options)),
             Self::Taylor => AnyIntegrator::Taylor(Taylor::new(options)),
-            Self::Rk4 | Self::Gauss(_) | Self::Animation => {
-                // Without a step the run is refused, as with any that is no step.
-                let step = options.initial_step.unwrap_or(T::NAN);
-                self.fixed(step).with_step_limit(options.step_limit)
-            }
-        }
-    }
-
-    /// The method with steps of this length.
-    fn fixed<T: Real>(self, step: T) -> AnyIntegrator<T> {
-        match self {
             Self::Gauss(order) => AnyIntegrator::Gauss(Gauss::new(order, step)),
             Self::Animation => AnyIntegrator::Gauss(Gauss::for_animation(step)),
-            _ => AnyIntegrator::Rk4(Rk4::new(step)),
+            Self::Rk4 => AnyIntegrator::Rk4(Rk4::new(step)),
         }
     }
 }
@@ -200,15 +246,15 @@ impl FromStr for Method {
     }
 }
 
-/// A name that no method has.
+/// Error: no method has this name.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct UnknownMethod {
-    /// The name given.
+    /// The unknown name.
     pub name: String,
 }
 
 impl UnknownMethod {
-    /// The method whose name is nearest, if one is near.
+    /// Returns the method with the most similar name; `None` if no name is similar.
     pub fn nearest(&self) -> Option<Method> {
         let name = self.name.to_ascii_lowercase();
         let distances = Method::ALL
@@ -236,7 +282,8 @@ impl fmt::Display for UnknownMethod {
 
 impl core::error::Error for UnknownMethod {}
 
-/// Number of letters to insert, to leave out or to replace between two words.
+/// Returns the edit distance: the number of letters to insert, remove or replace to turn one word
+/// into the other.
 fn distance(one: &str, other: &str) -> usize {
     let mut row: Vec<usize> = (0..=other.chars().count()).collect();
     for (i, letter) in one.chars().enumerate() {
@@ -250,21 +297,20 @@ fn distance(one: &str, other: &str) -> usize {
     row.last().copied().unwrap_or(0)
 }
 
-/// Any of the methods that have a [`Method`], as one type.
+/// One of the integration methods that [`Method`] names, as a single type.
 ///
-/// An [`Integrator`] like each of them. [`Taylor`] asks for systems that give
-/// their Taylor coefficients; [`RatesOnly`](crate::system::RatesOnly) makes
-/// such a system of any other, which `Taylor` alone then refuses.
+/// It implements [`Integrator`]. [`Taylor`] requires systems that provide their Taylor
+/// coefficients; [`RatesOnly`](crate::system::RatesOnly) adapts any other system, which only
+/// `Taylor` then refuses.
 #[derive(Clone, Debug)]
-#[non_exhaustive]
 pub enum AnyIntegrator<T> {
-    /// The classical method of order 4.
+    /// The classical Runge–Kutta method of order 4.
     Rk4(Rk4<T>),
-    /// Dormand and Prince's 5(4).
+    /// Dormand and Prince's pair of order 5(4).
     Dopri5(Dopri5<T>),
-    /// Dormand and Prince's 8(5,3).
+    /// Dormand and Prince's pair of order 8(5,3).
     Dop853(Dop853<T>),
-    /// Verner's 9(8).
+    /// Verner's pair of order 9(8).
     Verner98(Verner98<T>),
     /// Taylor series.
     Taylor(Taylor<T>),
@@ -273,8 +319,7 @@ pub enum AnyIntegrator<T> {
 }
 
 impl<T: Real> AnyIntegrator<T> {
-    /// The method with another number of steps, made and failed together,
-    /// after which a run ends with an error.
+    /// Sets the number of steps, completed and failed, after which a run ends with an error.
     pub fn with_step_limit(mut self, limit: u64) -> Self {
         *match &mut self {
             Self::Rk4(method) => &mut method.step_limit,
@@ -287,8 +332,8 @@ impl<T: Real> AnyIntegrator<T> {
         self
     }
 
-    /// The method that halves a step whose equations it cannot solve at most so often. Only Gauss
-    /// methods have such equations; the others stay as they are.
+    /// Sets how often a step may be halved if its equations cannot be solved. Only implicit methods
+    /// (Gauss) have such equations; others ignore this.
     pub fn with_halvings(mut self, halvings: u32) -> Self {
         if let Self::Gauss(method) = &mut self {
             method.halvings = halvings;
@@ -312,7 +357,7 @@ impl<T: Real, O: TaylorOde<T> + ?Sized> Integrator<T, O> for AnyIntegrator<T> {
     }
 }
 
-/// The method at work.
+/// Data that a method keeps during a run.
 type AnySteps<T, O> = Box<dyn Steps<T, O> + Send + Sync>;
 
 impl<T: Real, O: ?Sized> Steps<T, O> for AnySteps<T, O> {

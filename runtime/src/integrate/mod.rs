@@ -1,25 +1,24 @@
 //! Integration of the equations of motion.
 //!
-//! Methods that differ in order and cost, and share everything else: the trait
-//! [`Integrator`]. Steps are chosen by the error alone; an observer sees each
-//! accepted step as a [`DenseStep`] and may evaluate it anywhere inside, so
-//! that output never shortens a step.
+//! All methods implement the trait [`Integrator`] and differ only in order and cost. The error
+//! alone determines the steps. An observer receives each accepted step as a [`DenseStep`], which
+//! can be evaluated at any time within the step, so that output never shortens a step.
 //!
 //! | method | order | dense output | steps | for |
 //! |---|---|---|---|---|
-//! | [`ExplicitRungeKutta`]: [`Dop853`] and others | 5 to 9 | 4 to 8 | adaptive | most things |
+//! | [`ExplicitRungeKutta`]: [`Dop853`] and others | 5 to 9 | 4 to 8 | adaptive | most problems |
 //! | [`Taylor`] | by tolerance | that of the method | adaptive | tolerances down to rounding |
 //! | [`Rk4`] | 4 | 3 | fixed | comparison, given steps, many states in lanes |
 //! | [`Gauss`] | 2, 4, 6, 8 | 1 to 4 | fixed | energy over long times |
 //!
-//! [`Projected`] holds the state of [`Gauss`] and [`Rk4`] to a first integral.
+//! [`Projected`] keeps the state of [`Gauss`] and [`Rk4`] on a level set of a first integral.
 //!
-//! [`Frames`] is for real time: it cannot fail.
+//! [`Frames`] is for real time: it never fails.
 //!
-//! [`Method`] is a method by its name, as users of a program write it.
+//! [`Method`] is a method chosen by its name, as users of a program write it.
 //!
-//! Every run ends with a [`Report`]; a run that fails ends with an
-//! [`IntegrationError`] that carries the last good state.
+//! Every run ends with a [`Report`]. A run that fails ends with an [`IntegrationError`] that
+//! carries the last good state.
 
 mod checkpoint;
 mod control;
@@ -30,6 +29,7 @@ mod events;
 mod explicit;
 mod fixed;
 mod frames;
+mod horizon;
 mod integrator;
 #[cfg(feature = "std")]
 pub(crate) mod lanes;
@@ -54,6 +54,7 @@ pub use explicit::*;
 pub(crate) use fixed::Factored;
 pub use fixed::{Gauss, Projected, Rk4, Solver};
 pub use frames::{Frames, longest_sub_step};
+pub use horizon::Horizon;
 pub use integrator::Integrator;
 #[cfg(feature = "std")]
 pub use lanes::{Ending, LaneMethod};

@@ -5,14 +5,13 @@ use alloc::vec::Vec;
 use super::error::InputError;
 use crate::scalar::Real;
 
-/// Tolerance of the error of one step: one number for all components, or one
-/// for each.
+/// Tolerance of the error of one step: one number for all components, or one for each.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Tolerance<T> {
-    /// One for all components.
+    /// One tolerance for all components.
     Uniform(T),
-    /// One for each component of the state, in order.
+    /// A separate tolerance for each component of the state, in order.
     PerComponent(Vec<T>),
 }
 
@@ -41,13 +40,12 @@ impl<T: Copy> Tolerance<T> {
 
 /// Options of an adaptive integration.
 ///
-/// The local error of component i is held below
-/// `absolute_i + relative_i |y_i|`, in the mean square over the components.
-/// Relative tolerances below some ten [`Real::EPSILON`] ask for digits that the
-/// type does not hold: the steps get smaller and the result no better. Where the
-/// tolerance of a component is below a quarter of [`Real::EPSILON`] of its starting value,
-/// a run is refused: the estimate of the error would be its own rounding.
-/// [`Taylor`](super::Taylor) goes down to a thousandth of it.
+/// The local error of component i is held below `absolute_i + relative_i |y_i|`, in the mean square
+/// over the components. Relative tolerances below some ten [`Real::EPSILON`] require digits that
+/// the type does not have: steps get smaller without improving the result. If the tolerance of a
+/// component is below a quarter of [`Real::EPSILON`] times its starting value, the run is refused,
+/// because the error estimate would consist of rounding. For [`Taylor`](super::Taylor) this limit
+/// is a thousand times smaller.
 ///
 /// # Examples
 ///
@@ -60,42 +58,37 @@ impl<T: Copy> Tolerance<T> {
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Options<T> {
-    /// Relative tolerance; zero is allowed where the absolute one is positive.
+    /// Relative tolerance; may be zero if the absolute tolerance is positive.
     pub relative: Tolerance<T>,
-    /// Absolute tolerance, in the units of the state; zero is allowed where
-    /// the relative one is positive.
+    /// Absolute tolerance, in the units of the state; may be zero if the relative tolerance is
+    /// positive.
     pub absolute: Tolerance<T>,
-    /// Length of the first step that is tried; by default it is estimated, at
-    /// the cost of one evaluation.
+    /// Length of the first step to try. By default it is estimated, with one evaluation.
     pub initial_step: Option<T>,
-    /// Longest step allowed; by default the whole span. The last step may be
-    /// 1 % longer, so that no sliver is left over.
+    /// Longest step; by default the whole span. The last step may be 1 % longer, so that no tiny
+    /// step remains.
     pub max_step: Option<T>,
-    /// Shortest step allowed; a run that needs a shorter one ends with an
-    /// error. The last step may be shorter. By default zero; steps that are
-    /// lost in the rounding of the time are an error in any case.
+    /// Shortest step, zero by default. A run that needs a shorter step ends with an error; only the
+    /// last step may be shorter. Steps shorter than the rounding of the time are always an error.
     pub min_step: T,
-    /// Number of steps, accepted and rejected together, after which a run ends
-    /// with an error.
+    /// Number of steps, accepted and rejected, after which a run ends with an error.
     pub step_limit: u64,
-    /// Weight of the error before the last in the choice of the next step (PI
-    /// control): 0 by default, up to 0.04 where steps are rejected often.
+    /// Weight of the error of the step before in the choice of the next step (PI control): 0 by
+    /// default, up to 0.04 if steps are rejected often.
     pub beta: T,
-    /// True to carry the rounding errors of the sums y + Δy along (Kahan,
-    /// Babuška): the error of a long run then grows with the method's
-    /// error alone. Costs a few additions a step.
+    /// If true, the sums y + Δy keep their rounding errors (compensated summation, Kahan, Babuška).
+    /// Rounding then adds nothing to the error of a long run; the cost is a few additions per step.
     pub compensated: bool,
 }
 
 impl<T: Real> Options<T> {
-    /// Relative tolerance `tolerance` and absolute tolerance a thousandth of it
-    /// for every component, all else by default.
+    /// Creates options with the relative tolerance `tolerance` and a thousandth of it as absolute
+    /// tolerance for every component; all other options have their defaults.
     ///
-    /// So an angle counts in its own measure down to a thousandth of a radian:
-    /// what a small disturbance grows into is decided while it is small. For
-    /// the paper's pendulum near its threshold this makes the error after 10 s
-    /// several times smaller than equal tolerances do, for a few per cent more
-    /// work.
+    /// The tolerance of an angle is then relative down to a thousandth of a radian, because small
+    /// disturbances that grow must be accurate while they are small. For the paper's pendulum near
+    /// its threshold this makes the error after 10 s several times smaller than equal tolerances
+    /// do, for a few per cent more work.
     pub fn with_tolerance(tolerance: T) -> Self {
         Self {
             relative: Tolerance::Uniform(tolerance),
@@ -113,9 +106,9 @@ impl<T: Real> Options<T> {
     ///
     /// # Errors
     ///
-    /// The first [`InputError`] found: a tolerance, step or beta that is
-    /// negative or not finite, both tolerances of a component zero, the wrong
-    /// number of tolerances, a shortest step above the longest.
+    /// The first [`InputError`] found: a tolerance, step or beta that is negative or not finite,
+    /// both tolerances of a component zero, a wrong number of tolerances, a shortest step above the
+    /// longest step.
     pub fn validate(&self, dimension: usize) -> Result<(), InputError<T>> {
         for (name, tolerance) in [("relative", &self.relative), ("absolute", &self.absolute)] {
             if let Tolerance::PerComponent(values) = tolerance
@@ -169,15 +162,15 @@ impl<T: Real> Options<T> {
                 longest,
             });
         }
-        // From 1/8 / 0.2 on the exponent of the controller changes its sign.
+        // At 1/8 / 0.2 and above, the exponent of the controller changes its sign.
         if !(self.beta >= T::ZERO && self.beta <= T::from_f64(0.2)) {
             return Err(InputError::Beta { value: self.beta });
         }
         Ok(())
     }
 
-    /// Passes tolerances that ask for no more digits than a motion from `start` has,
-    /// `smallest` being the least relative tolerance that a method can use.
+    /// Checks that the tolerances do not require more digits than a motion from `start` has.
+    /// `smallest` is the smallest relative tolerance that the method can use.
     pub(crate) fn check_digits(&self, start: &[T], smallest: T) -> Result<(), InputError<T>> {
         for (component, value) in start.iter().enumerate() {
             let [Some(relative), Some(absolute)] =
@@ -185,11 +178,11 @@ impl<T: Real> Options<T> {
             else {
                 continue;
             };
-            // A tolerance below zero is refused as such.
+            // Negative tolerances are refused elsewhere.
             if relative < T::ZERO || absolute < T::ZERO {
                 continue;
             }
-            // What starts from zero gets a size that is not known: one, if that counts.
+            // A component that starts from zero has an unknown size; 1 is assumed.
             let size = match value.abs() {
                 size if size > T::ZERO => size,
                 _ if relative > T::ZERO => T::ONE,

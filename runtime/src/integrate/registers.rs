@@ -1,4 +1,4 @@
-//! The numbers in registers, one by one. A single number is a register of one lane.
+//! Access to the single numbers in vector registers. A single number is a register of one lane.
 
 use alloc::vec::Vec;
 
@@ -6,10 +6,10 @@ use crate::scalar::Real;
 use crate::simd::Simd;
 pub(crate) use crate::simd::WIDEST;
 
-/// One number a lane; those beyond the last lane mean nothing.
+/// One number for each lane; entries after the last lane are unused.
 pub(crate) type Numbers<T> = [T; WIDEST];
 
-/// The numbers of a register.
+/// Returns the numbers in the lanes of a register.
 #[inline(always)]
 pub(crate) fn numbers<T: Real, R: Simd<T>>(register: R) -> Numbers<T> {
     const { assert!(R::LANES <= WIDEST) }
@@ -18,24 +18,24 @@ pub(crate) fn numbers<T: Real, R: Simd<T>>(register: R) -> Numbers<T> {
     numbers
 }
 
-/// The register of these numbers.
+/// Returns the register that holds these numbers.
 #[cfg(feature = "std")]
 #[inline(always)]
 pub(crate) fn register<T: Real, R: Simd<T>>(numbers: &Numbers<T>) -> R {
     const { assert!(R::LANES <= WIDEST) }
     match R::load(numbers) {
         Some(register) => register,
-        // There are enough numbers: asserted.
+        // Unreachable: the array is long enough, which is asserted.
         None => R::from_f64(f64::NAN),
     }
 }
 
-/// The numbers that these registers have in a lane.
+/// Returns the numbers in one lane of several registers.
 pub(crate) fn numbers_in<T: Real, R: Simd<T>>(registers: &[R], lane: usize) -> Vec<T> {
     registers.iter().map(|&r| numbers(r)[lane]).collect()
 }
 
-/// Writes them to `out`.
+/// Writes the numbers in one lane of several registers to `out`.
 #[cfg(feature = "std")]
 pub(crate) fn copy_lane<T: Real, R: Simd<T>>(registers: &[R], lane: usize, out: &mut [T]) {
     for (out, &register) in out.iter_mut().zip(registers) {
@@ -43,7 +43,7 @@ pub(crate) fn copy_lane<T: Real, R: Simd<T>>(registers: &[R], lane: usize, out: 
     }
 }
 
-/// Changes one of the numbers.
+/// Sets the number in one lane of a register.
 #[cfg(feature = "std")]
 pub(crate) fn set_lane<T: Real, R: Simd<T>>(target: &mut R, lane: usize, value: T) {
     let mut changed = numbers(*target);
@@ -51,7 +51,7 @@ pub(crate) fn set_lane<T: Real, R: Simd<T>>(target: &mut R, lane: usize, value: 
     *target = register(&changed);
 }
 
-/// Zero where all these numbers are finite and `check` is zero, NaN elsewhere.
+/// Returns, for each lane, zero if all values are finite and `check` is zero, and NaN otherwise.
 #[inline(always)]
 pub(crate) fn check_finite<T: Real, R: Simd<T>>(mut check: R, values: &[R]) -> R {
     for value in values {
@@ -61,7 +61,7 @@ pub(crate) fn check_finite<T: Real, R: Simd<T>>(mut check: R, values: &[R]) -> R
     check
 }
 
-/// The smallest power of two whose inverse is finite.
+/// Returns the smallest power of two whose reciprocal is finite.
 pub(crate) fn smallest_divisor<T: Real>() -> T {
     let half = T::from_f64(0.5);
     let mut smallest = T::ONE;

@@ -1,28 +1,28 @@
-//! The account that a run leaves.
+//! Report of a run: steps, evaluations, and the reason for its end.
 
 use core::fmt;
 
 use crate::scalar::Real;
 use crate::system::State;
 
-/// Why a run stopped.
+/// Reason why a run stopped.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub enum StopReason {
-    /// The end of the span was reached.
+    /// The run reached the end of its time span.
     EndReached,
-    /// The observer asked to stop.
+    /// The observer ended the run.
     StoppedByObserver,
-    /// An event was found at which the run was to end.
+    /// A terminal event ended the run.
     StoppedByEvent,
     /// The limit on the number of steps was reached.
     StepLimit,
-    /// A step below the shortest allowed was called for.
+    /// The tolerances required a step below the shortest step.
     StepTooSmall,
     /// The equations of an implicit step could not be solved.
     NotSolved,
-    /// A state could not be brought back to the level of a first integral.
+    /// A state could not be projected to the level of a first integral.
     NotProjected,
     /// The state or its rates became infinite or NaN.
     NonFinite,
@@ -43,24 +43,24 @@ impl fmt::Display for StopReason {
     }
 }
 
-/// The account of a run: its steps, its evaluations, and why it stopped.
+/// Report of a run: its steps, its evaluations, and the reason why it stopped.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Report<T> {
-    /// Steps accepted.
+    /// Number of accepted steps.
     pub accepted: u64,
-    /// Steps rejected because their error was too large, or because their
-    /// equations could not be solved.
+    /// Number of steps rejected because their error was too large or their equations could not be
+    /// solved.
     pub rejected: u64,
-    /// Evaluations of the right-hand side, those for the first step and for
-    /// the dense output included.
+    /// Number of evaluations of the right-hand side, including those for the first step and the
+    /// dense output.
     pub evaluations: u64,
-    /// Length of the shortest step accepted; zero before the first one.
+    /// Length of the shortest accepted step; zero before the first one.
     pub shortest_step: T,
-    /// Length of the longest step accepted; zero before the first one.
+    /// Length of the longest accepted step; zero before the first one.
     pub longest_step: T,
-    /// Length of the step that the control would take next: the initial step
-    /// for a continuation. Zero where no step was tried.
+    /// Length of the step that the step-size control would try next, for use as the initial step of
+    /// a continuation. Zero if no step was tried.
     pub next_step: T,
     /// Why the run stopped.
     pub stop: StopReason,
@@ -87,7 +87,7 @@ impl<T: Real> Report<T> {
     }
 }
 
-/// The shortest and the longest step with one more, which may be the first.
+/// Returns the shortest and the longest step, updated by one more step, which may be the first.
 #[inline(always)]
 pub(crate) fn extremes<T: Real>([shortest, longest]: [T; 2], first: bool, step: T) -> [T; 2] {
     let shorter = first | (step < shortest);
@@ -115,13 +115,12 @@ impl<T: Real> fmt::Display for Report<T> {
     }
 }
 
-/// Where a run ended, and its account.
+/// Last state and report of a run.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Solution<T> {
-    /// The last state: at the end of the span, where the observer stopped, or
-    /// at the event that ended the run.
+    /// State at the end of the time span, or at the step or event at which the run was stopped.
     pub state: State<T>,
-    /// The account of the run.
+    /// Report of the run.
     pub report: Report<T>,
 }

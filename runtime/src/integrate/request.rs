@@ -1,10 +1,10 @@
-//! Checks of what is to be integrated, shared by all methods.
+//! Checks of the arguments of a run, shared by all methods.
 
 use super::error::InputError;
 use crate::scalar::Real;
 use crate::system::Ode;
 
-/// Passes a start, of this time and values, that fits the equations and is finite.
+/// Checks that start time and values are finite and fit the equations.
 pub(crate) fn check_start<T: Real, O: Ode<T> + ?Sized>(
     ode: &O,
     (time, values): (T, &[T]),
@@ -29,7 +29,7 @@ pub(crate) fn check_start<T: Real, O: Ode<T> + ?Sized>(
     Ok(())
 }
 
-/// Passes an end that is finite.
+/// Checks that the end time is finite.
 pub(crate) fn check_end<T: Real>(end: T) -> Result<(), InputError<T>> {
     match end.is_finite() {
         true => Ok(()),
@@ -37,8 +37,8 @@ pub(crate) fn check_end<T: Real>(end: T) -> Result<(), InputError<T>> {
     }
 }
 
-/// Passes times that are finite and run one way from `start`; equal ones may follow
-/// each other.
+/// Checks that all times are finite, and that they all increase or all decrease from `start`. Equal
+/// times may follow each other.
 pub(crate) fn check_times<T: Real>(start: T, times: &[T]) -> Result<(), InputError<T>> {
     let mut previous = start;
     let (mut forwards, mut backwards) = (false, false);
@@ -60,7 +60,8 @@ pub(crate) fn check_times<T: Real>(start: T, times: &[T]) -> Result<(), InputErr
     Ok(())
 }
 
-/// True if all values are finite, which zero times them tells: without a branch for each.
+/// Returns true if all values are finite. It tests the sum of the values times zero, which needs no
+/// branch per value.
 #[inline]
 pub(crate) fn all_finite<T: Real>(values: &[T]) -> bool {
     let zeros = values.iter().map(|&value| T::ZERO * value);

@@ -1,4 +1,4 @@
-//! A run under way, whoever asks for its steps.
+//! A run in progress, used by all functions that advance a motion.
 
 use alloc::vec::Vec;
 use core::borrow::Borrow;
@@ -17,9 +17,10 @@ use crate::interruption;
 use crate::scalar::Real;
 use crate::system::{Ode, State, Workspace};
 
-/// A method at work on equations, with the time it has reached and its account.
+/// A run in progress: the method's data, the equations, the time that has been reached, and the
+/// report.
 ///
-/// The equations `O` are owned or borrowed: they are what `B` is or refers to.
+/// `B` owns or borrows the equations `O`.
 #[derive(Clone, Debug)]
 pub(super) struct Run<B, O: ?Sized, S, T> {
     pub(super) ode: B,
@@ -28,16 +29,16 @@ pub(super) struct Run<B, O: ?Sized, S, T> {
     workspace: Workspace<T>,
     report: Report<T>,
     dimension: usize,
-    /// Times at the start and at the end of the last step; equal where there is none.
+    /// Times at the start and at the end of the last step; equal if there is none.
     times: [T; 2],
-    /// True if the last step is still between its start and its end.
+    /// True if the last step has been made but not yet been passed to the caller.
     made: bool,
-    /// True if values inside it can be had.
+    /// True if the dense output of the last step has been computed.
     prepared: bool,
 }
 
 impl<B: Borrow<O>, O: Ode<T> + ?Sized, S: Steps<T, O>, T: Real> Run<B, O, S, T> {
-    /// A run of `method` to the time `end`, about to leave `start`; both are checked.
+    /// Creates a run of `method` from `start` to the time `end`. Both are validated.
     pub(super) fn to_end<M>(
         method: &M,
         ode: B,
@@ -52,8 +53,7 @@ impl<B: Borrow<O>, O: Ode<T> + ?Sized, S: Steps<T, O>, T: Real> Run<B, O, S, T> 
         Self::new(method, ode, start, &[])
     }
 
-    /// A run of `method` about to leave `start`, which is checked, and whose way to
-    /// `times` is.
+    /// Creates a run of `method` from `start`. Validates `start` and the output `times`.
     pub(super) fn new<M>(
         method: &M,
         ode: B,
@@ -78,25 +78,25 @@ impl<B: Borrow<O>, O: Ode<T> + ?Sized, S: Steps<T, O>, T: Real> Run<B, O, S, T> 
         })
     }
 
-    /// Time that the run has reached.
+    /// Returns the time that the run has reached.
     pub(super) fn time(&self) -> T {
         self.times[1]
     }
 
-    /// The state that the run has reached.
+    /// Returns the state that the run has reached.
     pub(super) fn state(&self) -> &[T] {
         let piece = self.steps.piece();
         if self.made { piece.end } else { piece.start }
     }
 
-    /// The goal `end`.
+    /// Returns the goal of a run that ends at the time `end`.
     pub(super) fn goal(&self, end: T) -> Goal<T> {
         let forwards = end >= self.time();
-        self.way(Some(end), if forwards { T::ONE } else { -T::ONE })
+        self.goal_towards(Some(end), if forwards { T::ONE } else { -T::ONE })
     }
 
-    /// The way in a direction, to an end if there is one.
-    pub(super) fn way(&self, end: Option<T>, direction: T) -> Goal<T> {
+    /// Returns the goal of a run in a direction, with an end time if one is given.
+    pub(super) fn goal_towards(&self, end: Option<T>, direction: T) -> Goal<T> {
         Goal {
             end,
             direction,
@@ -104,7 +104,7 @@ impl<B: Borrow<O>, O: Ode<T> + ?Sized, S: Steps<T, O>, T: Real> Run<B, O, S, T> 
         }
     }
 
-    /// Splits into the steps and what they work with.
+    /// Borrows the data of the method and the evaluator of the equations separately.
     fn parts(&mut self) -> (&mut S, Evaluator<'_, T, O>) {
         let system = Evaluator {
             ode: self.ode.borrow(),
@@ -118,8 +118,7 @@ impl<B: Borrow<O>, O: Ode<T> + ?Sized, S: Steps<T, O>, T: Real> Run<B, O, S, T> 
     /// Makes the next step towards the goal.
     ///
     /// # Errors
-    /// As the method's, with the last good state, from which the run can be asked
-    /// to go on.
+    /// The error of the method, with the last good state, from which the run can continue.
     #[inline(always)]
     pub(super) fn step(&mut self, goal: Goal<T>) -> Result<(), IntegrationError<T>> {
         if self.made {
@@ -143,7 +142,8 @@ impl<B: Borrow<O>, O: Ode<T> + ?Sized, S: Steps<T, O>, T: Real> Run<B, O, S, T> 
         }
     }
 
-    /// Makes the next step towards the goal; none where that is reached.
+    /// Makes the next step towards the goal and returns it; returns `None` if the goal has been
+    /// reached.
     #[inline(always)]
     pub(super) fn step_to(
         &mut self,
@@ -156,15 +156,15 @@ impl<B: Borrow<O>, O: Ode<T> + ?Sized, S: Steps<T, O>, T: Real> Run<B, O, S, T> 
         Ok(Some(DenseStep::new(self)))
     }
 
-    /// Starts anew from these values.
+    /// Restarts from these values.
     pub(super) fn restart(&mut self, time: T, values: &[T]) {
         self.steps.restart(values);
         self.times = [time; 2];
         self.made = false;
     }
 
-    /// Saves what the method remembers: the end of the last step is the start of the next
-    /// one then.
+    /// Saves the numbers on which further steps depend. First makes the end of the last step the
+    /// start of the next one.
     pub(super) fn save(&mut self) -> Vec<T> {
         if self.made {
             self.steps.advance();
@@ -176,7 +176,7 @@ impl<B: Borrow<O>, O: Ode<T> + ?Sized, S: Steps<T, O>, T: Real> Run<B, O, S, T> 
         memory.into_numbers()
     }
 
-    /// Restores that, with the account of the steps before.
+    /// Restores the numbers on which further steps depend, and the report of the earlier steps.
     pub(super) fn restore(
         &mut self,
         numbers: &[T],
@@ -191,7 +191,7 @@ impl<B: Borrow<O>, O: Ode<T> + ?Sized, S: Steps<T, O>, T: Real> Run<B, O, S, T> 
         }
     }
 
-    /// The end of the run.
+    /// Returns the last state and the report of the run.
     pub(super) fn solution(&self, stop: StopReason) -> Solution<T> {
         Solution {
             state: State {
@@ -205,7 +205,7 @@ impl<B: Borrow<O>, O: Ode<T> + ?Sized, S: Steps<T, O>, T: Real> Run<B, O, S, T> 
         }
     }
 
-    /// The end of a run whose observer failed when it saw this time and state.
+    /// Creates the error of a run whose observer failed at this time and state.
     #[cold]
     pub(super) fn stopped_at<E>(&self, time: T, values: &[T], error: E) -> RunError<T, E> {
         RunError::Observer {
@@ -218,7 +218,7 @@ impl<B: Borrow<O>, O: Ode<T> + ?Sized, S: Steps<T, O>, T: Real> Run<B, O, S, T> 
         }
     }
 
-    /// The end of a run whose last step had no value to give: time and length were right,
+    /// Creates the error of a run whose last step has no dense output. Time and length were valid,
     /// so the rates were not finite.
     #[cold]
     pub(super) fn dense_failure(&self, error: DenseError<T>) -> IntegrationError<T> {

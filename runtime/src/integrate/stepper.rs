@@ -1,4 +1,4 @@
-//! Motion step by step, or frame by frame, at the caller's pace.
+//! A motion that advances step by step or frame by frame, when the caller requests it.
 
 use alloc::vec::Vec;
 use core::fmt;
@@ -14,22 +14,21 @@ use crate::scalar::Real;
 use crate::scalar::two_sum;
 use crate::system::{Ode, State};
 
-/// A motion under way: [`Integrator::start`] begins it, the caller asks for its
-/// steps or its frames.
+/// A motion that the caller advances step by step or frame by frame; created by
+/// [`Integrator::start`].
 ///
-/// It keeps what the method has learnt: rates, the length of the steps, factors of
-/// Newton's method. Nothing is allocated after the start, but by errors.
+/// It keeps the memory of the method: rates, step length, factors of Newton's method. After the
+/// start only errors allocate.
 ///
-/// - [`advance`](Self::advance) moves the time by the length of a frame. Steps are as
-///   long as the method makes them, whatever the frames are; the state at a frame
-///   comes from the dense output. So the motion is the same at any rate of frames.
-/// - [`step`](Self::step) makes one step, as long as the method chooses it.
-/// - [`step_to`](Self::step_to) makes one that goes no further than a given time, as
-///   those of [`Integrator::integrate`] are.
+/// - [`advance`](Self::advance) advances the time by the length of a frame. The length of the
+///   steps does not depend on the frames; the state at a frame comes from the dense output. So the
+///   motion is the same at any frame rate.
+/// - [`step`](Self::step) makes one step of the length that the method chooses.
+/// - [`step_to`](Self::step_to) makes one step that ends at a given time at the latest, as the
+///   steps of [`Integrator::integrate`] do.
 ///
-/// State and equations may be changed between any two requests:
-/// [`set_state`](Self::set_state), [`ode_mut`](Self::ode_mut). Step limits count the
-/// steps of one request.
+/// State and equations may be changed between requests: [`set_state`](Self::set_state),
+/// [`ode_mut`](Self::ode_mut). Step limits count the steps of one request.
 ///
 /// The equations may be borrowed (`&ode` is an [`Ode`] too) or owned.
 ///
@@ -74,7 +73,7 @@ use crate::system::{Ode, State};
 /// # Ok::<(), IntegrationError<f64>>(())
 /// ```
 ///
-/// Steps, with errors of one's own:
+/// Steps in a loop that can fail for other reasons:
 ///
 /// ```
 /// use branched_pendulum::prelude::*;
@@ -98,15 +97,16 @@ where
     M: Integrator<T, O>,
 {
     run: Run<O, O, M::Steps, T>,
-    /// 1, or −1 backwards.
+    /// Direction of the run: 1 forwards, −1 backwards in time.
     direction: T,
-    /// Time that the caller has reached, and what its rounding left over.
+    /// Time to which the caller has advanced the motion, and the accumulated rounding error of this
+    /// sum.
     time: T,
     residue: T,
-    /// True if that is inside the last step: `inside` is the state there.
+    /// True if the caller's time is within the last step; `inside` is then the state at that time.
     is_inside: bool,
     inside: Vec<T>,
-    /// True if state or equations are no longer those of the last step.
+    /// True if the caller has changed the state or the equations since the last step.
     changed: bool,
 }
 
@@ -143,16 +143,15 @@ impl<T: Real, O: Ode<T>, M: Integrator<T, O>> Stepper<M, O, T> {
         Ok(stepper)
     }
 
-    /// Lays the motion down as it is now: this one and one that
-    /// [`Integrator::resume`] takes up from there go on with the same bits.
+    /// Returns a checkpoint of the motion. From here on, this motion and a motion that
+    /// [`Integrator::resume`] continues from the checkpoint have the same bits.
     ///
-    /// Between two steps nothing changes by it. At a frame inside a step, and after changes
-    /// of state or equations, the method starts anew from the present state, in this motion
-    /// as in the other.
+    /// Between two steps this does not change the motion. At a frame within a step, and after
+    /// changes of state or equations, the method restarts from the present state, in both motions.
     ///
     /// # Errors
     ///
-    /// [`InputError::Dimension`] where the equations are no longer those of the state.
+    /// [`InputError::Dimension`] if the dimension of the equations has changed.
     ///
     /// # Examples
     ///
@@ -191,12 +190,12 @@ impl<T: Real, O: Ode<T>, M: Integrator<T, O>> Stepper<M, O, T> {
         })
     }
 
-    /// Time of the state.
+    /// Returns the time of the state.
     pub fn time(&self) -> T {
         self.time
     }
 
-    /// The state.
+    /// Returns the state.
     pub fn state(&self) -> &[T] {
         if self.is_inside {
             &self.inside
@@ -205,7 +204,7 @@ impl<T: Real, O: Ode<T>, M: Integrator<T, O>> Stepper<M, O, T> {
         }
     }
 
-    /// Time and state, for instance to start from. Allocates.
+    /// Returns time and state, for instance as a new start. Allocates.
     pub fn to_state(&self) -> State<T> {
         State {
             time: self.time,
@@ -213,28 +212,28 @@ impl<T: Real, O: Ode<T>, M: Integrator<T, O>> Stepper<M, O, T> {
         }
     }
 
-    /// The account of all steps so far.
+    /// Returns the report of all steps so far.
     pub fn report(&self) -> &Report<T> {
         self.run.report()
     }
 
-    /// The equations.
+    /// Returns the equations.
     pub fn ode(&self) -> &O {
         &self.run.ode
     }
 
-    /// The equations, to change them. The next step starts anew from the state.
+    /// Returns the equations, so that they can be changed. The next step restarts from the present
+    /// state.
     pub fn ode_mut(&mut self) -> &mut O {
         self.changed = true;
         &mut self.run.ode
     }
 
-    /// Goes on from another time and state.
+    /// Continues from another time and state.
     ///
     /// # Errors
     ///
-    /// [`InputError`] if they are not finite or their number is not that of before;
-    /// nothing has changed then.
+    /// [`InputError`] if they are not finite or have another length. Nothing changes in that case.
     pub fn set_state(&mut self, time: T, values: &[T]) -> Result<(), InputError<T>> {
         check_start(&self.run.ode, (time, values))?;
         check_length(self.inside.len(), values.len())?;
@@ -244,20 +243,20 @@ impl<T: Real, O: Ode<T>, M: Integrator<T, O>> Stepper<M, O, T> {
         Ok(())
     }
 
-    /// Makes the next step of the length that the method chooses, and returns it. The
-    /// state is then that at its end.
+    /// Makes the next step, with the length that the method chooses, and returns it. The state is
+    /// then the state at its end.
     ///
     /// # Errors
     ///
-    /// As [`Integrator::integrate`]. State and time are then the last good ones, to be
-    /// changed or to go on from.
+    /// As [`Integrator::integrate`]. State and time are then the last good ones; they can be
+    /// changed, or the motion can continue from them.
     pub fn step(&mut self) -> Result<DenseStep<'_, T>, IntegrationError<T>> {
         self.make_step(None, self.direction)?;
         Ok(DenseStep::new(&mut self.run))
     }
 
-    /// Makes the next step, not beyond the time `end`, and returns it; none where that
-    /// is reached. It may lie before the present time.
+    /// Makes the next step, at most to the time `end`, and returns it; `None` if `end` has been
+    /// reached. `end` may lie before the present time.
     ///
     /// # Errors
     ///
@@ -272,8 +271,8 @@ impl<T: Real, O: Ode<T>, M: Integrator<T, O>> Stepper<M, O, T> {
         Ok(Some(DenseStep::new(&mut self.run)))
     }
 
-    /// The states at the ends of the steps to the time `end`, one after the other; it
-    /// ends after an error. Each allocates; [`step_to`](Self::step_to) does not.
+    /// Returns an iterator over the states at the ends of the steps to the time `end`. It ends
+    /// after an error. Each state is allocated; [`step_to`](Self::step_to) allocates nothing.
     pub fn states_to(
         &mut self,
         end: T,
@@ -295,16 +294,15 @@ impl<T: Real, O: Ode<T>, M: Integrator<T, O>> Stepper<M, O, T> {
         })
     }
 
-    /// Moves the time by `duration`, backwards if it is negative, and the state with
-    /// it.
+    /// Advances time and state by `duration` (backwards if negative).
     ///
-    /// The sum of the times carries its rounding error along: any number of frames
-    /// leads where their product does.
+    /// The sum of the times is compensated, so that n frames lead to n times their length without
+    /// added rounding.
     ///
     /// # Errors
     ///
-    /// As [`step`](Self::step), and if `duration` is not finite. Where a step fails,
-    /// time and state are those at the end of the step before.
+    /// As [`step`](Self::step), and if `duration` is not finite. If a step fails, time and state
+    /// are those at the end of the step before.
     pub fn advance(&mut self, duration: T) -> Result<(), IntegrationError<T>> {
         if !duration.is_finite() {
             return Err(InputError::FixedStep { value: duration }.into());
@@ -317,8 +315,8 @@ impl<T: Real, O: Ode<T>, M: Integrator<T, O>> Stepper<M, O, T> {
             self.start_anew(direction)?;
         }
         let (time, residue) = two_sum(self.time, duration + self.residue);
-        let goal = self.run.way(None, direction);
-        // Steps and frames of equal length meet but for rounding.
+        let goal = self.run.goal_towards(None, direction);
+        // Ends of steps and frames of equal length agree except for rounding.
         let rounding = T::from_f64(2.0) * T::EPSILON * time.abs();
         while (time - self.run.time()) * direction > rounding {
             if let Err(error) = self.run.step(goal) {
@@ -338,24 +336,24 @@ impl<T: Real, O: Ode<T>, M: Integrator<T, O>> Stepper<M, O, T> {
         Ok(())
     }
 
-    /// Makes a step from where the caller is.
+    /// Makes a step from the present time and state of the caller.
     fn make_step(&mut self, end: Option<T>, direction: T) -> Result<(), IntegrationError<T>> {
         if self.changed || self.is_inside || direction != self.direction {
             self.start_anew(direction)?;
         }
-        let goal = self.run.way(end, direction);
+        let goal = self.run.goal_towards(end, direction);
         let made = self.run.step(goal);
         self.stay();
         made
     }
 
-    /// Sees the state at the end of the last step.
+    /// Sets the caller's time and state to the end of the last step.
     fn stay(&mut self) {
         (self.time, self.residue) = (self.run.time(), T::ZERO);
         self.is_inside = false;
     }
 
-    /// Starts anew from the present state.
+    /// Restarts the method from the present state, in the given direction of time.
     fn start_anew(&mut self, direction: T) -> Result<(), InputError<T>> {
         check_length(self.run.ode.dimension(), self.inside.len())?;
         if !self.is_inside {

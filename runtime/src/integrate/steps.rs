@@ -1,6 +1,6 @@
-//! Methods at work: their memory, and how they make a step.
+//! Interface of a method during a run: its data, and its steps.
 
-// A sealed trait names the types.
+// The types are public because a sealed trait mentions them.
 #![allow(unreachable_pub)]
 
 use super::checkpoint::Memory;
@@ -12,12 +12,12 @@ use super::report::{Report, StopReason};
 use crate::scalar::Real;
 use crate::system::State;
 
-/// A method at work: its memory and its step control.
+/// Data of a method during a run, including its step-size control.
 ///
-/// A step lies between two states, both of which stay until
-/// [`advance`](Self::advance) makes the end the start of the next one.
+/// A step lies between two states, which both stay available until [`advance`](Self::advance) makes
+/// the end the start of the next step.
 pub trait Steps<T: Real, O: ?Sized> {
-    /// Makes the next step, from `time` towards the goal. Returns the time of its end.
+    /// Makes the next step, from `time` towards the goal, and returns the time at its end.
     fn step(
         &mut self,
         system: &mut Evaluator<'_, T, O>,
@@ -25,50 +25,50 @@ pub trait Steps<T: Real, O: ?Sized> {
         goal: Goal<T>,
     ) -> Result<T, Failure<T>>;
 
-    /// Computes what values inside the step that was made from `time` need.
+    /// Computes the dense output of the step that started at `time`.
     fn prepare(&mut self, system: &mut Evaluator<'_, T, O>, time: T) -> Result<(), NonFinite<T>> {
         let _ = (system, time);
         Ok(())
     }
 
-    /// The step: its ends, and the polynomial between them.
+    /// Returns the step: its ends, and the polynomial between them.
     fn piece(&self) -> Piece<'_, T>;
 
-    /// Makes the end of the step the start of the next.
+    /// Makes the end of the step the start of the next step.
     fn advance(&mut self);
 
-    /// Starts anew from `values`, in a motion that need not be that of the steps
-    /// before.
+    /// Restarts from the state `values`, which may belong to another motion.
     fn restart(&mut self, values: &[T]);
 
-    /// Saves what the next step depends on, beside the state at its start, or restores
-    /// it.
+    /// Saves or restores the numbers on which the next step depends, in addition to the state at
+    /// its start.
     fn remember(&mut self, memory: &mut Memory<T>);
 }
 
-/// Where steps lead.
+/// Direction of a run in time, and its end.
 #[derive(Clone, Copy, Debug)]
 pub struct Goal<T> {
-    /// Time beyond which no step may go, if there is one.
+    /// Time that no step may pass, if there is one.
     pub(crate) end: Option<T>,
-    /// 1, or −1 backwards.
+    /// Direction of the run: 1 forwards, −1 backwards in time.
     pub(crate) direction: T,
-    /// Steps of earlier requests, which do not count towards a limit of this one.
+    /// Number of steps of earlier calls, which do not count towards the step limit of this one.
     pub(crate) steps_before: u64,
 }
 
-/// Longest step where neither the goal nor the options set a limit: a system at
-/// rest would make infinite ones.
+/// Longest step if neither the goal nor the options set a limit, because a system at rest would
+/// allow infinite steps.
 const FARTHEST: f64 = 1e6;
 
 impl<T: Real> Goal<T> {
-    /// Length of time from `time` on.
+    /// Returns the absolute time between `time` and the end.
     pub(crate) fn distance(&self, time: T) -> T {
         self.end
             .map_or(T::from_f64(FARTHEST), |end| (end - time).abs())
     }
 
-    /// End of a step from `time` of the length `step`, and true if it is the goal.
+    /// Returns the end time of a step of length `step` from `time`, and true if this is the end of
+    /// the run.
     #[inline(always)]
     pub(crate) fn plan(&self, time: T, step: T) -> (T, bool) {
         match self.end {
@@ -81,8 +81,8 @@ impl<T: Real> Goal<T> {
     }
 }
 
-/// End of a step from `time` of the length `step` towards `end`, and true if that is
-/// reached. A step one per cent longer than planned is better than a sliver at the end.
+/// Returns the end time of a step of length `step` from `time` towards `end`, and true if `end` is
+/// reached. The step may be one per cent longer than planned, to avoid a tiny last step.
 #[inline(always)]
 pub(crate) fn towards<T: Real>(end: T, direction: T, time: T, step: T) -> (T, bool) {
     let last = step * T::from_f64(1.01) >= (end - time).abs();
@@ -90,16 +90,16 @@ pub(crate) fn towards<T: Real>(end: T, direction: T, time: T, step: T) -> (T, bo
     (if last { end } else { next }, last)
 }
 
-/// The limits that options set to steps.
+/// Limits on the length and number of steps, from the options.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct StepLimits<T> {
-    /// Length of the first step that is tried.
+    /// Length of the first step to try.
     pub(crate) initial: Option<T>,
     /// Longest step.
     pub(crate) longest: Option<T>,
-    /// Shortest step, but for the last one.
+    /// Shortest step; the last step may be shorter.
     shortest: T,
-    /// Number of steps, accepted and rejected together.
+    /// Largest number of steps, accepted and rejected.
     number: u64,
 }
 
@@ -113,34 +113,35 @@ impl<T: Real> StepLimits<T> {
         }
     }
 
-    /// The step, or the longest one allowed.
+    /// Returns the step length, reduced to the longest allowed step if it exceeds it.
     pub(crate) fn limit(&self, step: T) -> T {
         self.longest.map_or(step, |longest| step.min(longest))
     }
 
-    /// The longest step that a method without a control of its own may take; the `first`
-    /// one is no longer than the initial step that was asked for.
+    /// Returns the longest allowed step of a method that does not control its error by the step
+    /// length; the `first` step is at most the initial step of the options.
     pub(crate) fn bound(&self, first: bool) -> T {
         let longest = self.longest.unwrap_or(T::ONE / T::ZERO);
         let initial = self.initial.filter(|_| first);
         initial.map_or(longest, |initial| initial.min(longest))
     }
 
-    /// Below this length, time plus step is mostly rounding.
+    /// Returns the length below which time + step is dominated by the rounding of the time.
     #[inline(always)]
     fn lost(time: T) -> T {
         T::from_f64(10.0) * T::EPSILON * time.abs()
     }
 
-    /// Returns true if a step from `time` of length `step` may be tried after so many others;
-    /// `last` if it reaches the end, which may be as near as it likes.
+    /// Returns true if one more step, from `time` with length `step`, is allowed after `steps`
+    /// steps. `last` marks a step that reaches the end, which may have any length.
     #[inline(always)]
     pub(crate) fn allow(&self, steps: u64, (time, step, last): (T, T, bool)) -> bool {
         let short = (step < self.shortest) | (step <= Self::lost(time));
         (steps < self.number) & (last | !short)
     }
 
-    /// Passes such a step in a run with this account.
+    /// Checks that a step is allowed after the steps in the report; `attempt` is the step's start,
+    /// its length, and true if it is the last one.
     #[inline(always)]
     pub(crate) fn check(
         &self,
@@ -161,7 +162,7 @@ impl<T: Real> StepLimits<T> {
     }
 }
 
-/// Passes one step more in a run with this account.
+/// Checks that the limit on the number of steps allows one more step.
 #[inline(always)]
 pub(crate) fn check_number<T: Real>(
     limit: u64,
@@ -174,18 +175,18 @@ pub(crate) fn check_number<T: Real>(
     Ok(())
 }
 
-/// Why a step was not made.
+/// Reason why a step could not be made.
 #[derive(Clone, Debug)]
 pub enum Failure<T> {
     /// Rates or state were not finite.
     NonFinite(NonFinite<T>),
-    /// The tolerances ask for a step below the shortest allowed.
+    /// The tolerances require a step below the shortest step.
     StepTooSmall { step: T, shortest: T },
     /// The limit on the number of steps was reached.
     StepLimit { limit: u64 },
-    /// The equations of the step were not solved.
+    /// The equations of the step could not be solved.
     NotSolved { step: T, iterations: u32, change: T },
-    /// The end of the step was not projected onto the level of the integral.
+    /// The end of the step could not be projected to the level of the integral.
     NotProjected {
         step: T,
         iterations: u32,
@@ -200,7 +201,7 @@ impl<T> From<NonFinite<T>> for Failure<T> {
 }
 
 impl<T: Real> Failure<T> {
-    /// The error of a run that ends here; `last` is its last good state.
+    /// Converts the failure to the error of the run; `last` is its last good state.
     #[cold]
     pub(crate) fn error(self, last: State<T>, report: &Report<T>) -> IntegrationError<T> {
         let report = |stop| Report { stop, ..*report };

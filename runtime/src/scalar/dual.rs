@@ -6,10 +6,10 @@ use super::Scalar;
 
 /// A number and its derivatives along `N` directions.
 ///
-/// Emitted code that computes with these gives, beside its values, their
-/// derivatives, exact to rounding: `N` columns of a Jacobian, or `N` solutions
-/// of the variational equations, for the cost of `N` linear computations.
-/// A. Griewank and A. Walther, Evaluating Derivatives, 2nd ed. 2008, ch. 3.
+/// Emitted code that computes with such numbers returns values together with their derivatives,
+/// exact up to rounding: `N` columns of a Jacobian, or `N` solutions of the variational equations,
+/// for the cost of `N` linear computations. A. Griewank and A. Walther, Evaluating Derivatives, 2nd
+/// ed. 2008, ch. 3.
 ///
 /// # Examples
 ///
@@ -24,14 +24,14 @@ use super::Scalar;
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Dual<T, const N: usize> {
-    /// The number.
+    /// Value of the number.
     pub value: T,
-    /// Derivatives of the number.
+    /// Derivatives along each direction.
     pub tangents: [T; N],
 }
 
 impl<T: Scalar, const N: usize> Dual<T, N> {
-    /// A number that depends on nothing: all derivatives are zero.
+    /// Creates a constant: all derivatives are zero.
     #[inline(always)]
     #[must_use]
     pub fn constant(value: T) -> Self {
@@ -41,8 +41,8 @@ impl<T: Scalar, const N: usize> Dual<T, N> {
         }
     }
 
-    /// The variable of a direction: derivative one there, zero elsewhere. A
-    /// `direction` that is not below `N` makes a constant.
+    /// Creates the variable of one direction: its derivative is 1 along that direction and 0 along
+    /// the others. If `direction` is not below `N`, the result is a constant.
     #[inline(always)]
     #[must_use]
     pub fn variable(value: T, direction: usize) -> Self {
@@ -53,7 +53,8 @@ impl<T: Scalar, const N: usize> Dual<T, N> {
         result
     }
 
-    /// A function's value and, by the chain rule, its derivatives.
+    /// Returns a function of this number by the chain rule, given the function's value and
+    /// derivative here.
     #[inline(always)]
     fn chain(self, value: T, slope: T) -> Self {
         let mut result = self;
@@ -96,7 +97,7 @@ impl<T: Scalar, const N: usize> Sub for Dual<T, N> {
 impl<T: Scalar, const N: usize> Mul for Dual<T, N> {
     type Output = Self;
 
-    // The rule of the operation, not a slip.
+    // The product rule: sums in a product are intended.
     #[allow(clippy::suspicious_arithmetic_impl)]
     #[inline(always)]
     fn mul(self, other: Self) -> Self {
@@ -108,7 +109,7 @@ impl<T: Scalar, const N: usize> Mul for Dual<T, N> {
 impl<T: Scalar, const N: usize> Div for Dual<T, N> {
     type Output = Self;
 
-    // The rule of the operation, not a slip.
+    // The quotient rule: other operations in a quotient are intended.
     #[allow(clippy::suspicious_arithmetic_impl)]
     #[inline(always)]
     fn div(self, other: Self) -> Self {
@@ -149,8 +150,7 @@ impl<T: Scalar, const N: usize> Scalar for Dual<T, N> {
         (self.chain(sine, cosine), self.chain(cosine, -sine))
     }
 
-    /// The derivative of the root of zero is infinite, or NaN where the
-    /// tangent is zero.
+    /// Computes the square root. Its derivative at zero is infinite, or NaN if the tangent is zero.
     #[inline(always)]
     fn sqrt(self) -> Self {
         let root = self.value.sqrt();

@@ -1,4 +1,4 @@
-//! The machine's own numbers.
+//! The scalars `f64` and `f32`.
 
 use super::kind::{ByKind, Compiled};
 use super::lanes::{Lane, Registers};
@@ -12,7 +12,8 @@ use crate::simd::{F32x4, F32x8, F32x16, F64x2, F64x4, F64x8};
 ))]
 use crate::simd::{F32x4, F64x2};
 
-/// A register of this name, or as many lanes where there are none.
+/// Selects the vector register type with this name, or an array with the same number of lanes if
+/// the target has no such register.
 #[cfg(all(target_arch = "x86_64", target_feature = "sse2"))]
 macro_rules! register {
     ($name:ty, $lanes:literal of $float:ident) => {
@@ -179,7 +180,7 @@ mod tests {
 
     #[test]
     fn constants_round_once_to_the_nearest_value() {
-        // 0.1 is no f32: the nearest one must come out, not a truncation.
+        // 0.1 is not exactly an `f32`: the result must be the nearest one, not a truncation.
         assert_eq!(<f32 as Scalar>::from_f64(0.1), 0.1_f32);
         assert_eq!(<f64 as Scalar>::from_f64(0.1), 0.1_f64);
     }

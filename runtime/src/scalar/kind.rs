@@ -1,7 +1,7 @@
-//! Choices by the kind of a number: plain, wide, or any other.
+//! Selection of code by the kind of number type: plain, wide, or any other.
 
-// The traits appear in the interface of public ones, so that they must be `pub`, and
-// are named by no one else.
+// The traits occur in the interface of public ones, so that they must be `pub`; no other code names
+// them.
 #![allow(unreachable_pub)]
 
 use core::marker::PhantomData;
@@ -9,16 +9,16 @@ use core::marker::PhantomData;
 use super::{Lane, Scalar};
 use crate::simd::Simd;
 
-/// A question that numbers of several kinds answer each in their own way. Numbers put
-/// it to [`Scalar::by_kind`].
+/// A computation with separate versions for several kinds of numbers. [`Scalar::by_kind`] selects
+/// the version.
 pub trait ByKind<S: Scalar>: Sized {
-    /// The answer.
+    /// Result of the computation.
     type Output;
 
-    /// Answers for a number of any kind.
+    /// Computes for numbers of any other kind.
     fn of_any(self) -> Self::Output;
 
-    /// Answers for `f64` or `f32`.
+    /// Computes for `f64` or `f32`.
     #[inline(always)]
     fn of_plain(self) -> Self::Output
     where
@@ -27,7 +27,8 @@ pub trait ByKind<S: Scalar>: Sized {
         self.of_any()
     }
 
-    /// Answers for a wide number of several plain ones, or for one that fuses.
+    /// Computes for a wide number, which consists of several plain ones, or for a number with fused
+    /// multiply–add.
     #[inline(always)]
     fn of_wide<T: Scalar>(self) -> Self::Output
     where
@@ -37,23 +38,23 @@ pub trait ByKind<S: Scalar>: Sized {
     }
 }
 
-/// A generic function that is compiled with this crate for `f64` and for `f32`, once,
-/// and not with every crate that calls it.
+/// A generic function that is compiled once for `f64` and `f32` in this crate, and not in every
+/// crate that calls it.
 pub trait Compiled {
     /// Type of the function.
     type Function<T: Scalar>;
 
-    /// Returns it for any numbers.
+    /// Returns the function for number types of any kind.
     fn of_any<T: Scalar>() -> Self::Function<T>;
 
-    /// Returns it for `f64`.
+    /// Returns the function for `f64`.
     fn of_f64() -> Self::Function<f64>;
 
-    /// Returns it for `f32`.
+    /// Returns the function for `f32`.
     fn of_f32() -> Self::Function<f32>;
 }
 
-/// Implements [`Compiled`] for a new type that stands for a function.
+/// Implements [`Compiled`] for a new marker type that represents a function.
 macro_rules! compiled_once {
     ($(#[$docs:meta])* $vis:vis $name:ident<$t:ident> = $function:path: $kind:ty) => {
         $(#[$docs])*
@@ -67,7 +68,7 @@ macro_rules! compiled_once {
                 $function
             }
 
-            // Inlined, they would be compiled where they are called.
+            // If they were inlined, they would be compiled in the calling crate.
             #[inline(never)]
             fn of_f64() -> Self::Function<f64> {
                 $function
@@ -83,13 +84,13 @@ macro_rules! compiled_once {
 
 pub(crate) use compiled_once;
 
-/// Returns a function for numbers `T`.
+/// Returns a function that is compiled for numbers of type `T`.
 #[inline(always)]
 pub(crate) fn compiled<C: Compiled, T: Scalar>() -> C::Function<T> {
     T::by_kind(FunctionOf::<C>(PhantomData))
 }
 
-/// Asks for a function.
+/// Selects a function by the kind of number type.
 struct FunctionOf<C>(PhantomData<C>);
 
 impl<S: Scalar, C: Compiled> ByKind<S> for FunctionOf<C> {

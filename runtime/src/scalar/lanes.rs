@@ -1,4 +1,4 @@
-//! Several numbers in step.
+//! Several numbers in lockstep.
 
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -6,38 +6,38 @@ use super::kind::{ByKind, Compiled};
 use super::{Real, Scalar};
 use crate::simd::Simd;
 
-/// A number that has lanes: `f64` or `f32`. Sealed: other crates cannot implement it.
-// The trait is private on purpose: with `pub`, `T::Avx512` would be a register for anybody
-// who has a `T: Lane`, on any machine.
+/// A number type of which vector registers exist: `f64` or `f32`. Sealed: other crates cannot
+/// implement it.
+// The trait is private on purpose: if it were `pub`, `T::Avx512` would give everybody with a `T:
+// Lane` a register, on any machine.
 #[allow(private_bounds)]
 pub trait Lane: Registers {}
 
-/// Registers that are made of a plain number, and functions that are compiled with this crate.
+/// Vector registers of a plain number type, and functions compiled in this crate.
 pub(crate) trait Registers: Real {
-    /// Registers of the build.
+    /// Register of the build's instructions.
     type Build: Simd<Self>;
-    /// Registers of AVX2.
+    /// Register of AVX2.
     type Avx2: Simd<Self>;
-    /// Registers of AVX-512.
+    /// Register of AVX-512.
     type Avx512: Simd<Self>;
-    /// One number that fuses.
+    /// A single number that fuses.
     type Fused: Simd<Self>;
-    /// Four numbers with the instructions of AVX2.
+    /// Four numbers, computed with instructions of AVX2 if available.
     type Four: Simd<Self>;
 
-    /// Returns a function that is compiled with this crate.
+    /// Returns a function for this number type that is compiled in this crate.
     fn compiled<C: Compiled>() -> C::Function<Self>;
 }
 
-/// `N` numbers that go through the same operations, each in its lane: one
-/// evaluation of emitted code is then one of `N` states.
+/// `N` numbers that undergo the same operations: one evaluation of emitted code then evaluates `N`
+/// states.
 ///
-/// A plain array and loops over it, which the compiler turns into vector
-/// instructions where functions are short: for any emitted function, with the
-/// instructions of the build. Lane `i` of a result has the bits that the scalar
-/// computation gives. For the accelerations of many states take a
-/// [`Batch`](crate::batch::Batch), which needs no model in lanes and chooses
-/// registers at run time.
+/// It is a plain array with loops over it, which the compiler turns into vector instructions in
+/// short functions. It works for any emitted function, with the instructions for which the program
+/// is compiled. Each lane of a result has the same bits as the computation with a single number.
+/// For the accelerations of many states use a [`Batch`](crate::batch::Batch), which needs no model
+/// in lanes and chooses registers at run time.
 ///
 /// # Examples
 ///
@@ -52,12 +52,12 @@ pub(crate) trait Registers: Real {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C, align(64))]
 pub struct Lanes<T, const N: usize>(
-    /// The numbers.
+    /// Numbers in the lanes.
     pub [T; N],
 );
 
 impl<T: Copy, const N: usize> Lanes<T, N> {
-    /// One value in every lane.
+    /// Returns the same value in every lane.
     #[inline(always)]
     #[must_use]
     pub const fn splat(value: T) -> Self {

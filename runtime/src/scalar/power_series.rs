@@ -5,12 +5,12 @@ use core::ops::{Add, Div, Mul, Neg, Sub};
 
 use super::Scalar;
 
-/// A power series in one small variable, cut off: `N` coefficients, of orders 0 to `N` − 1.
+/// A truncated power series in one small variable, with `N` coefficients of orders 0 to `N` − 1.
 ///
-/// A function computed with these gives its expansion, exact to rounding, without a formula
-/// that is differentiated: energy transfers by orders of the amplitude
+/// A function that is computed with such numbers returns its power series, exact up to rounding,
+/// without differentiating a formula: for example energy transfers by orders of the amplitude
 /// ([`SymmetricTree`](crate::transfer::SymmetricTree)). A product takes N²/2 products of
-/// coefficients, as quotients, sines and roots do but for a factor. A. Griewank and A. Walther,
+/// coefficients; quotients, sines and roots take a multiple of that. A. Griewank and A. Walther,
 /// Evaluating Derivatives, 2nd ed. 2008, ch. 13.
 ///
 /// # Examples
@@ -28,26 +28,26 @@ use super::Scalar;
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PowerSeries<T, const N: usize> {
-    /// Coefficients, from order 0 on.
+    /// Coefficients, beginning with order 0.
     pub coefficients: [T; N],
 }
 
 impl<T: Scalar, const N: usize> PowerSeries<T, N> {
-    /// A number that does not depend on the variable.
+    /// Creates a number that does not depend on the variable.
     #[inline(always)]
     #[must_use]
     pub fn constant(value: T) -> Self {
         Self::of(value, |_, _| T::from_f64(0.0))
     }
 
-    /// The variable itself, beside a value.
+    /// Creates the series `value` + ε, with the variable ε.
     #[inline(always)]
     #[must_use]
     pub fn variable(value: T) -> Self {
         Self::linear(value, T::from_f64(1.0))
     }
 
-    /// A value, and so many times the variable.
+    /// Creates the series `value` + `slope` ε, with the variable ε.
     #[inline(always)]
     #[must_use]
     pub fn linear(value: T, slope: T) -> Self {
@@ -58,8 +58,8 @@ impl<T: Scalar, const N: usize> PowerSeries<T, N> {
         result
     }
 
-    /// Sum of the coefficients of the orders in a range: the series there where the variable
-    /// is 1.
+    /// Returns the sum of the coefficients of the given orders, which is the value of these terms
+    /// if the variable is 1.
     #[must_use]
     pub fn sum(&self, orders: core::ops::RangeInclusive<usize>) -> T {
         let own = self.coefficients.iter().enumerate();
@@ -67,7 +67,8 @@ impl<T: Scalar, const N: usize> PowerSeries<T, N> {
         own.fold(T::from_f64(0.0), |sum, (_, &value)| sum + value)
     }
 
-    /// A series whose coefficients follow from those before.
+    /// Creates a series with constant term `first`; `next` computes each further coefficient from
+    /// the previous ones.
     #[inline(always)]
     fn of(first: T, mut next: impl FnMut(&[T; N], usize) -> T) -> Self {
         let mut coefficients = [T::from_f64(0.0); N];
@@ -86,7 +87,7 @@ impl<T: Scalar, const N: usize> PowerSeries<T, N> {
     }
 }
 
-/// Σ a_j b_{order−j} over a range of j.
+/// Returns Σ a_j b_{order−j} over a range of j, one coefficient of a product of two series.
 #[inline(always)]
 fn folded<T: Scalar>(
     range: core::ops::Range<usize>,
@@ -187,7 +188,8 @@ impl<T: Scalar, const N: usize> Scalar for PowerSeries<T, N> {
         (s, c)
     }
 
-    /// From root² = self; infinite or NaN from order 1 on at zero.
+    /// Returns the square root, computed order by order from root² = self. If the constant term is
+    /// zero, the coefficients from order 1 on are infinite or NaN.
     #[inline(always)]
     fn sqrt(self) -> Self {
         let a = self.coefficients;
@@ -224,7 +226,7 @@ mod tests {
         assert_close(x + y - y, x);
         let (sine, cosine) = x.sin_cos();
         assert_close(sine * sine + cosine * cosine, Series::constant(1.0));
-        // sin (x + y) by addition.
+        // sin (x + y) by angle addition.
         let (sine_y, cosine_y) = y.sin_cos();
         assert_close((x + y).sin_cos().0, sine * cosine_y + cosine * sine_y);
     }

@@ -1,16 +1,17 @@
-//! Sine and cosine to 250 bits, for tests: fixed-point numbers, reduction by
-//! doubling and subtracting, Taylor series, π by Machin's formula. Slow, and
-//! related to nothing else in this crate.
+//! Sine and cosine to 250 bits, as a reference for tests: fixed-point numbers, range reduction by
+//! doubling and subtracting, Taylor series, π by Machin's formula. Slow, and independent of all
+//! other code of this crate.
 
 use std::vec::Vec;
 
-/// A number from 0 up: one integer word, then `L − 1` words of fraction.
+/// A non-negative fixed-point number: one integer word, then `L − 1` words of fraction.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) struct Fixed<const L: usize>([u64; L]);
 
-/// Words for the reduction of any `f64`: each of 1077 doublings doubles an error.
+/// Number of 64-bit words that the range reduction of any `f64` needs: each of up to 1077 doublings
+/// also doubles the error.
 const LONG: usize = 24;
-/// Words for the series.
+/// Number of 64-bit words that the Taylor series need.
 pub(crate) const SHORT: usize = 7;
 
 impl<const L: usize> Fixed<L> {
@@ -59,7 +60,7 @@ impl<const L: usize> Fixed<L> {
             }
             product[i] = carry as u64;
         }
-        // Two integer words; the first is zero for what is computed here.
+        // Two integer words; the first is zero for all numbers of this module.
         assert_eq!(product[0], 0, "a product beyond the range");
         let mut result = Self::ZERO;
         result.0.copy_from_slice(&product[1..=L]);
@@ -77,10 +78,10 @@ impl<const L: usize> Fixed<L> {
         result
     }
 
-    /// `mantissa` · 2^exponent, exactly.
+    /// Returns `mantissa` · 2^exponent, exactly.
     pub(crate) fn scaled(mantissa: u64, exponent: i32) -> Self {
         let mut result = Self::ZERO;
-        // Bit 0 of the integer word has position 63 from the front.
+        // Bit 0 of the integer word is at position 63 from the front.
         let lowest = 63 - exponent;
         for bit in (0..64).filter(|bit| mantissa >> bit & 1 == 1) {
             let place = usize::try_from(lowest - bit).expect("a number beyond the range");
@@ -89,7 +90,7 @@ impl<const L: usize> Fixed<L> {
         result
     }
 
-    /// The exact value of a finite `value` that is not negative.
+    /// Returns the exact value of a finite, non-negative `value`.
     pub(crate) fn of(value: f64) -> Self {
         let (mantissa, exponent) = parts(value);
         Self::scaled(mantissa, exponent)
@@ -118,7 +119,7 @@ impl<const L: usize> Fixed<L> {
     }
 }
 
-/// Mantissa and exponent of a finite |value|.
+/// Returns the mantissa and the exponent of |value|, for a finite `value`.
 pub(crate) fn parts(value: f64) -> (u64, i32) {
     let bits = value.abs().to_bits();
     let biased = (bits >> 52) as i32;
@@ -130,7 +131,7 @@ pub(crate) fn parts(value: f64) -> (u64, i32) {
     }
 }
 
-/// π/2 = 8 arctan(1/5) − 2 arctan(1/239).
+/// Computes π/2 = 8 arctan(1/5) − 2 arctan(1/239).
 fn half_pi<const L: usize>() -> Fixed<L> {
     let arctangent = |inverse: u64, factor: u64| {
         let mut power = Fixed::<L>::integer(factor).div(inverse);
@@ -152,7 +153,7 @@ fn half_pi<const L: usize>() -> Fixed<L> {
     arctangent(5, 8).sub(arctangent(239, 2))
 }
 
-/// Sine or cosine: sign and size.
+/// Sine or cosine as sign and magnitude.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Signed {
     pub(crate) negative: bool,
@@ -160,7 +161,7 @@ pub(crate) struct Signed {
 }
 
 impl Signed {
-    /// |value − self|.
+    /// Returns |value − self|.
     pub(crate) fn error(&self, value: f64) -> f64 {
         let other = Fixed::of(value.abs());
         if value.is_sign_negative() == self.negative {
@@ -171,7 +172,7 @@ impl Signed {
     }
 }
 
-/// Computes references; holds π.
+/// Computes reference values; stores π/2.
 pub(crate) struct Reference {
     half_pi: Fixed<LONG>,
 }
@@ -181,7 +182,7 @@ impl Reference {
         Self { half_pi: half_pi() }
     }
 
-    /// Sine and cosine of the sum of finite positive numbers.
+    /// Returns the sine and cosine of the sum of finite positive numbers.
     pub(crate) fn sin_cos(&self, angle: &[f64]) -> (Signed, Signed) {
         let mut quarter = 0;
         let mut rest = Fixed::ZERO;
@@ -215,7 +216,7 @@ impl Reference {
         }
     }
 
-    /// Quarter turns modulo 4, and the rest.
+    /// Returns the number of quarter turns in an angle modulo 4, and the remainder.
     fn reduce(&self, angle: f64) -> (i32, Fixed<LONG>) {
         let (mantissa, exponent) = parts(angle);
         let unit = Fixed::<LONG>::scaled(1, exponent.min(0));
@@ -237,7 +238,7 @@ impl Reference {
     }
 }
 
-/// Σ (−1)^k x^(2k+first)/(2k+first)!
+/// Computes Σ (−1)^k x^(2k+first)/(2k+first)!.
 fn series(x: Fixed<SHORT>, first: u64) -> Fixed<SHORT> {
     let square = x.mul(x);
     let mut term = if first == 0 { Fixed::integer(1) } else { x };
@@ -254,8 +255,8 @@ fn series(x: Fixed<SHORT>, first: u64) -> Fixed<SHORT> {
         let n = 2 * k + first;
         term = term.mul(square).div((n + 1) * (n + 2));
     }
-    // Below zero by rounding only where the true value is a hundred digits
-    // smaller than any that tests ask for.
+    // Negative only by rounding, if the true value is a hundred digits smaller than any that tests
+    // need.
     if plus < minus {
         Fixed::ZERO
     } else {
@@ -263,8 +264,8 @@ fn series(x: Fixed<SHORT>, first: u64) -> Fixed<SHORT> {
     }
 }
 
-/// Angles for tests: all exponents, neighbourhoods of multiples of π/2, dense
-/// near zero turns; none negative.
+/// Returns non-negative angles for tests: all exponents, neighbourhoods of multiples of π/2, dense
+/// near zero.
 pub(crate) fn angles(per_kind: usize) -> Vec<f64> {
     let mut state = 0x9e37_79b9_7f4a_7c15_u64;
     let mut random = move || {
@@ -274,7 +275,7 @@ pub(crate) fn angles(per_kind: usize) -> Vec<f64> {
         state
     };
     let mut angles = std::vec![
-        // The closest to a multiple of π/2 of all f64 (Muller, §11.3.2).
+        // Of all `f64`, the one closest to a multiple of π/2 (Muller, §11.3.2).
         6_381_956_970_095_103.0 * 2.0_f64.powi(797),
         f64::MAX,
         102_943.0,
@@ -282,14 +283,14 @@ pub(crate) fn angles(per_kind: usize) -> Vec<f64> {
         1_647_099.0,
     ];
     for _ in 0..per_kind {
-        // Any finite number from 2⁻³⁰ on.
+        // Any finite number above 2⁻³⁰.
         let exponent = 993 + random() % (2047 - 993);
         angles.push(f64::from_bits(exponent << 52 | random() >> 12));
-        // Up to half a turn, evenly.
+        // Up to half a turn, uniformly.
         angles.push((random() >> 11) as f64 * 2.0_f64.powi(-53) * std::f64::consts::PI);
         // The common range.
         angles.push((random() >> 11) as f64 * 2.0_f64.powi(-53) * 103_000.0);
-        // Beside multiples of π/2.
+        // Close to multiples of π/2.
         let multiple = (1 + random() % (1 << (1 + random() % 20))) as f64;
         let near = multiple * std::f64::consts::FRAC_PI_2;
         angles.push(f64::from_bits(near.to_bits().wrapping_add(random() % 3)));

@@ -1,19 +1,18 @@
-//! Sectors: what identical subtrees do in phase and against each other.
+//! Sectors: sets of symmetric coordinates (means and differences of identical subtrees) that stay
+//! zero if they start at zero.
 //!
-//! At the in-phase motion, where all copies move alike, the mass matrix falls
-//! into blocks: one for the means and one for each branching and difference. The
-//! coordinates of a block are a sector. Emitted code lists them
-//! ([`Sectors::sectors`]) and reports their energies and the transfers between
-//! them ([`Budget`]). States come from absolute angles into symmetric coordinates
-//! and back by the functions of [`Sectors`], in either [`Normalisation`].
+//! At an in-phase motion, in which all copies have equal angles, the mass matrix consists of
+//! blocks: one for the means, and one for each branching and difference. The coordinates of a block
+//! are a sector. Emitted code lists them ([`Sectors::sectors`]) and computes their energies and the
+//! transfers between them ([`Budget`]). The functions of [`Sectors`] convert states between
+//! absolute angles and symmetric coordinates, in either [`Normalisation`].
 
 mod normalisation;
 mod scales;
 
 pub use normalisation::Normalisation;
 use normalisation::{StateKind, inward, outward, renormalise};
-pub(crate) use scales::PowerKind;
-pub use scales::{ScaleBudget, Scales, degrees_of_freedom};
+pub use scales::{PowerKind, ScaleBudget, Scales, degrees_of_freedom};
 
 use alloc::borrow::Cow;
 use alloc::string::String;
@@ -21,8 +20,8 @@ use alloc::vec::Vec;
 
 use crate::scalar::Scalar;
 
-/// A coordinate of a sector, in terms of the links: θ_link = Σ weight ·
-/// coordinate over all coordinates.
+/// A symmetric coordinate of a sector and its weights in the angles of the links: θ_link = Σ weight
+/// · coordinate, summed over all coordinates.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SectorCoordinate {
     name: Cow<'static, str>,
@@ -30,7 +29,7 @@ pub struct SectorCoordinate {
 }
 
 impl SectorCoordinate {
-    /// A coordinate that is written down in code.
+    /// Creates a coordinate from constant data, as in emitted code.
     #[must_use]
     pub const fn listed(name: &'static str, weights: &'static [(usize, f64)]) -> Self {
         Self {
@@ -39,7 +38,7 @@ impl SectorCoordinate {
         }
     }
 
-    /// A coordinate with the index and the weight of each link in which it shows.
+    /// Creates a coordinate from the index and the weight of each link that it contributes to.
     #[must_use]
     pub const fn new(name: String, weights: Vec<(usize, f64)>) -> Self {
         Self {
@@ -48,30 +47,29 @@ impl SectorCoordinate {
         }
     }
 
-    /// Name, as in [`COORDINATE_NAMES`](crate::SymmetricPendulum::COORDINATE_NAMES).
+    /// Returns the name, as in [`COORDINATE_NAMES`](crate::SymmetricPendulum::COORDINATE_NAMES).
     #[must_use]
     pub fn name(&self) -> &str {
         &self.name
     }
 
-    /// Index and weight of each link in which it shows.
+    /// Returns the index and the weight of each link that the coordinate contributes to.
     #[must_use]
     pub fn weights(&self) -> &[(usize, f64)] {
         &self.weights
     }
 
-    /// Σ weight²: the square of the factor that turns the coordinate into the
-    /// orthonormal one. The orthonormal coordinate is √norm · coordinate, its
-    /// momentum that of the coordinate divided by √norm; for the difference of
-    /// two links the norm is 2. [`Sectors`] converts states;
-    /// `analysis::sector_modes` says more.
+    /// Returns Σ weight², the square of the factor by which the orthonormal coordinate is larger
+    /// than this one. The orthonormal coordinate is √norm · coordinate, and its momentum is that of
+    /// the coordinate divided by √norm; for the difference of two links the norm is 2. [`Sectors`]
+    /// converts states; see also `analysis::sector_modes`.
     #[must_use]
     pub fn norm(&self) -> f64 {
         self.weights.iter().map(|(_, weight)| weight * weight).sum()
     }
 
-    /// Mean or difference of the links' values: Σ weight · value / norm.
-    /// Links that `values` lacks count as zero.
+    /// Returns the mean or difference of the links' values: Σ weight · value / norm. Links that are
+    /// missing in `values` count as zero.
     #[must_use]
     pub fn of(&self, values: &[f64]) -> f64 {
         let weighted = self.weights.iter().filter_map(|&(link, weight)| {
@@ -82,7 +80,7 @@ impl SectorCoordinate {
     }
 }
 
-/// The coordinates of one block.
+/// A sector: the symmetric coordinates of one block of the mass matrix at an in-phase motion.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sector {
     name: Cow<'static, str>,
@@ -90,7 +88,7 @@ pub struct Sector {
 }
 
 impl Sector {
-    /// A sector that is written down in code.
+    /// Creates a sector from constant data, as in emitted code.
     #[must_use]
     pub const fn listed(name: &'static str, coordinates: &'static [SectorCoordinate]) -> Self {
         Self {
@@ -99,7 +97,7 @@ impl Sector {
         }
     }
 
-    /// A sector of these coordinates.
+    /// Creates a sector with the given coordinates.
     #[must_use]
     pub const fn new(name: String, coordinates: Vec<SectorCoordinate>) -> Self {
         Self {
@@ -108,13 +106,14 @@ impl Sector {
         }
     }
 
-    /// `in_phase` for the means, else the name of the uppermost difference.
+    /// Returns the name of the sector: `in_phase` for the means, else the name of its uppermost
+    /// difference.
     #[must_use]
     pub fn name(&self) -> &str {
         &self.name
     }
 
-    /// Coordinates of the sector, from the root outwards.
+    /// Returns the coordinates of the sector, from the root outwards.
     #[must_use]
     pub fn coordinates(&self) -> &[SectorCoordinate] {
         &self.coordinates
@@ -123,9 +122,9 @@ impl Sector {
 
 /// A model whose sectors are known.
 ///
-/// The functions transform states, for any scalar. All slices have one number
-/// for each link; a slice of another length is answered with NaN. Effort: the
-/// number of weights, O(n · depth · copies) for n links.
+/// The functions transform states, for any scalar. All slices have one number per link; for slices
+/// of a wrong length the results are NaN. The cost is proportional to the number of weights, O(n ·
+/// depth · copies) for n links.
 ///
 /// # Examples
 ///
@@ -160,16 +159,14 @@ impl Sector {
     note = "a tree with identical siblings knows them with `emit(budget)` in its attribute"
 )]
 pub trait Sectors {
-    /// The sectors: the means, then the differences, those of a branching before
-    /// those of the branchings below it.
-    /// Together they have as many coordinates as there are links; one after the
-    /// other they are the symmetric coordinates, in the order of
-    /// [`COORDINATE_NAMES`](crate::SymmetricPendulum::COORDINATE_NAMES). Compiled models have them
-    /// as the constant `SECTORS` besides.
+    /// Returns the sectors: first the means, then the differences; the differences at a branching
+    /// come before those at the branchings below it. Together they have as many coordinates as
+    /// there are links. In sequence these are the symmetric coordinates in the order of
+    /// [`COORDINATE_NAMES`](crate::SymmetricPendulum::COORDINATE_NAMES). Compiled models also have
+    /// them as the constant `SECTORS`.
     fn sectors(&self) -> &[Sector];
 
-    /// Symmetric coordinates from absolute angles, or their rates from angular
-    /// velocities.
+    /// Computes symmetric coordinates from absolute angles, or their rates from angular velocities.
     fn symmetric_from_absolute<T: Scalar>(
         &self,
         normalisation: Normalisation,
@@ -180,8 +177,7 @@ pub trait Sectors {
         inward(self.sectors(), kind, normalisation, absolute, symmetric);
     }
 
-    /// Absolute angles from symmetric coordinates, or angular velocities from
-    /// their rates.
+    /// Computes absolute angles from symmetric coordinates, or angular velocities from their rates.
     fn absolute_from_symmetric<T: Scalar>(
         &self,
         normalisation: Normalisation,
@@ -192,8 +188,8 @@ pub trait Sectors {
         outward(self.sectors(), kind, normalisation, symmetric, absolute);
     }
 
-    /// Momenta of symmetric coordinates from those of the absolute angles: p_j =
-    /// Σ p_i ∂θ_i/∂q_j.
+    /// Computes the momenta p_j of the symmetric coordinates q_j from the momenta p_i of the
+    /// absolute angles θ_i: p_j = Σ p_i ∂θ_i/∂q_j.
     fn symmetric_momenta_from_absolute<T: Scalar>(
         &self,
         normalisation: Normalisation,
@@ -204,7 +200,7 @@ pub trait Sectors {
         inward(self.sectors(), kind, normalisation, absolute, symmetric);
     }
 
-    /// Momenta of the absolute angles from those of symmetric coordinates.
+    /// Computes the momenta of the absolute angles from the momenta of the symmetric coordinates.
     fn absolute_momenta_from_symmetric<T: Scalar>(
         &self,
         normalisation: Normalisation,
@@ -215,14 +211,12 @@ pub trait Sectors {
         outward(self.sectors(), kind, normalisation, symmetric, absolute);
     }
 
-    /// Symmetric coordinates or their rates, from one normalisation to another
-    /// in place.
+    /// Converts symmetric coordinates, or their rates, from one normalisation to another in place.
     fn renormalise<T: Scalar>(&self, from: Normalisation, to: Normalisation, values: &mut [T]) {
         renormalise(self.sectors(), StateKind::Coordinates, [from, to], values);
     }
 
-    /// Momenta of symmetric coordinates, from one normalisation to another in
-    /// place.
+    /// Converts momenta of symmetric coordinates from one normalisation to another in place.
     fn renormalise_momenta<T: Scalar>(
         &self,
         from: Normalisation,
@@ -239,14 +233,14 @@ impl<M: Sectors> Sectors for &M {
     }
 }
 
-/// Energies of `S` sectors and what changes them: dE/dt = transfer + power.
+/// Energies E of `S` sectors and their rates of change: dE/dt = transfer + power.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Budget<T, const S: usize> {
-    /// E_s, in joules.
+    /// Energies E_s, in J.
     pub energies: [T; S],
-    /// W_s, what other sectors give, in watts.
+    /// Energy transfers W_s from all other sectors into each sector, in W.
     pub transfers: [T; S],
-    /// P_s, what friction and drive give, in watts; negative where they take.
+    /// Powers P_s of friction and drive on each sector, in W; negative if they remove energy.
     pub powers: [T; S],
 }
 

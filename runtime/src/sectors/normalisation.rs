@@ -1,23 +1,24 @@
-//! Between absolute angles and symmetric coordinates, in either normalisation.
+//! Conversion between absolute angles and symmetric coordinates, in either normalisation.
 
 use super::{Sector, SectorCoordinate};
 use crate::scalar::Scalar;
 
-/// The size of symmetric coordinates. With J the matrix of the
-/// [`weights`](SectorCoordinate::weights), whose columns are orthogonal, and
-/// norm_j = (JᵀJ)_jj ([`SectorCoordinate::norm`]):
+/// Normalisation of symmetric coordinates q. J is the matrix of their
+/// [`weights`](SectorCoordinate::weights), whose columns are orthogonal, and norm_j = (JᵀJ)_jj is
+/// [`SectorCoordinate::norm`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Normalisation {
-    /// Means and, between two copies, half differences, as in the paper:
-    /// θ = J q, p = Jᵀ p_θ.
+    /// Means, and half differences of two copies, as in the paper: angles θ = J q, momenta p = Jᵀ
+    /// p_θ.
     Plain,
-    /// The image of the angles under a rotation, Helmert's or Haar's: x_j =
-    /// √norm_j q_j with momenta p_j/√norm_j. Squares sum, Σ x_j² = Σ θ_i², and
-    /// kinetic energies of different sectors compare.
+    /// Rotated angles, with Helmert's or Haar's basis: x_j = √norm_j q_j with momenta p_j/√norm_j.
+    /// Squares are preserved, Σ x_j² = Σ θ_i², and kinetic energies of different sectors are
+    /// comparable.
     Orthonormal,
 }
 
-/// StateKind of the transformed quantity: momenta go the other way than coordinates.
+/// Kind of the transformed quantity: coordinates or momenta, which transform with the inverse
+/// factors.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum StateKind {
     Coordinates,
@@ -25,7 +26,7 @@ pub(super) enum StateKind {
 }
 
 impl StateKind {
-    /// Σ weight · absolute times this is the symmetric value.
+    /// Returns the factor of Σ weight · absolute value in the symmetric value.
     fn inward<T: Scalar>(self, norm: f64, normalisation: Normalisation) -> T {
         let one = T::from_f64(1.0);
         match (normalisation, self) {
@@ -35,7 +36,7 @@ impl StateKind {
         }
     }
 
-    /// Weight · symmetric value times this is its part of the absolute value.
+    /// Returns the factor of weight · symmetric value in the absolute value.
     fn outward<T: Scalar>(self, norm: f64, normalisation: Normalisation) -> T {
         let one = T::from_f64(1.0);
         match (normalisation, self) {
@@ -50,8 +51,7 @@ pub(crate) fn coordinates(sectors: &[Sector]) -> impl Iterator<Item = &SectorCoo
     sectors.iter().flat_map(Sector::coordinates)
 }
 
-/// Returns true if slices have one number for each coordinate; else fills the
-/// second with NaN.
+/// Returns true if both slices have one number per coordinate; otherwise fills `to` with NaN.
 fn fits<T: Scalar>(sectors: &[Sector], from: usize, to: &mut [T]) -> bool {
     let count = coordinates(sectors).count();
     let fits = from == count && to.len() == count;
@@ -73,8 +73,8 @@ pub(super) fn inward<T: Scalar>(
     }
     for (out, coordinate) in symmetric.iter_mut().zip(coordinates(sectors)) {
         let zero = T::from_f64(0.0);
-        // Differences are taken from the first link: those of equal numbers are zero exactly,
-        // where sums of many would round.
+        // Differences are computed relative to the first link: those of equal numbers are then
+        // exactly zero, whereas sums of many numbers would be rounded.
         let is_difference = coordinate.weights().iter().map(|own| own.1).sum::<f64>() == 0.0;
         let first = coordinate.weights().first().filter(|_| is_difference);
         let origin = first.and_then(|(link, _)| absolute.get(*link));

@@ -1,19 +1,18 @@
-//! Scales: all sectors that branch in one generation, together.
+//! Scales: a scale combines all sectors whose copies branch in one generation.
 
 use alloc::vec::Vec;
 
 use crate::scalar::Scalar;
 use crate::system::Workspace;
 
-/// A tree by rule whose energies and transfers are known by scale.
+/// A tree described by `generations(…)`, with energies and energy transfers by scale.
 ///
-/// Scale 0 is the sector of the means, scale s ≥ 1 are all sectors that branch into
-/// links of generation s, the root being generation 0: as many scales as generations.
-/// Energies are those by Parseval, which sum to K + U (`docs/physics.md`, section 18).
+/// Scale 0 is the sector of the means. Scale s ≥ 1 combines all sectors that branch into links of
+/// generation s, where the root is generation 0. There are as many scales as generations. Energies
+/// are defined by Parseval's identity and sum to K + U (`docs/physics.md`, section 18).
 ///
-/// Slices have one number for each link, in the order of the model's links; all results
-/// are NaN for slices of another length. On [`Lanes`](crate::scalar::Lanes) one call
-/// computes many states.
+/// Slices have one number per link, in the order of the model's links; for slices of a wrong length
+/// all results are NaN. On [`Lanes`](crate::scalar::Lanes) one call computes many states.
 ///
 /// # Examples
 ///
@@ -50,12 +49,13 @@ use crate::system::Workspace;
     note = "a tree by rule knows them with `emit(budget(parseval, scales))` in its attribute"
 )]
 pub trait Scales<T: Scalar> {
-    /// Copies of each generation under each link of the one before, 1 for the root.
+    /// Number of copies of each generation under each link of the generation before; 1 for the
+    /// root.
     const COPIES: &'static [usize];
 
-    /// Computes energies, transfers and powers by scale, with O(n) operations for each
-    /// scale of n links and two products a link for each pair of scales. Allocates the
-    /// first time.
+    /// Computes energies (J), energy transfers and powers (W) by scale. Takes O(n) operations per
+    /// scale for n links, and two products per link for each pair of scales. Allocates at the first
+    /// call.
     fn budget_by_scale(
         &self,
         workspace: &mut Workspace<T>,
@@ -65,7 +65,8 @@ pub trait Scales<T: Scalar> {
         budget: &mut ScaleBudget<T>,
     );
 
-    /// Computes the same with the power of torques from outside, N m, one for each link.
+    /// Computes energies, energy transfers and powers by scale, including the power of external
+    /// torques (N m, one per link).
     fn budget_by_scale_under(
         &self,
         workspace: &mut Workspace<T>,
@@ -76,8 +77,8 @@ pub trait Scales<T: Scalar> {
         budget: &mut ScaleBudget<T>,
     );
 
-    /// Computes the energies alone, in O(n) operations. Transfers and powers are zero
-    /// then.
+    /// Computes the energies (J) by scale only, in O(n) operations. Transfers and powers are set to
+    /// zero.
     fn energies_by_scale(
         &self,
         workspace: &mut Workspace<T>,
@@ -86,9 +87,9 @@ pub trait Scales<T: Scalar> {
         budget: &mut ScaleBudget<T>,
     );
 
-    /// Writes the energies of single sectors, J: of the means, then k − 1 for each link
-    /// with k children, in the order of the links and of Helmert's differences. There
-    /// are as many as leaves; all are NaN in a slice of another length. O(n).
+    /// Writes the energies of single sectors, in J: first that of the means, then for each link
+    /// with k children those of the k − 1 differences (Helmert's), in the order of the links. There
+    /// are as many sectors as leaves; if the slice has another length, all energies are NaN. O(n).
     fn energies_by_sector(
         &self,
         workspace: &mut Workspace<T>,
@@ -98,8 +99,8 @@ pub trait Scales<T: Scalar> {
     );
 }
 
-/// Returns the degrees of freedom of a scale: N in N generations for the means, else
-/// N − s for each difference of each branching into generation s.
+/// Returns the number of degrees of freedom of a scale in a tree of N generations: N for the means,
+/// and N − s for each difference at each branching into generation s.
 #[must_use]
 pub fn degrees_of_freedom(copies: &[usize], scale: usize) -> usize {
     let Some(below) = copies.len().checked_sub(scale) else {
@@ -115,12 +116,16 @@ pub fn degrees_of_freedom(copies: &[usize], scale: usize) -> usize {
     }
 }
 
-/// Cause of a power that enters or leaves by itself.
+/// Kind of a power that does not come from other scales: friction, drag, drive or external torques.
 #[derive(Clone, Copy, Debug)]
-pub(crate) enum PowerKind {
+pub enum PowerKind {
+    /// Friction in pivots and between siblings.
     Friction,
+    /// Drag against the ground.
     Drag,
+    /// Torque on the root and motion of its pivot.
     Drive,
+    /// Torques from outside.
     Outside,
 }
 
@@ -128,24 +133,25 @@ impl PowerKind {
     pub(crate) const ALL: [Self; 4] = [Self::Friction, Self::Drag, Self::Drive, Self::Outside];
 }
 
-/// Energies by scale, and what changes them: dE_s/dt is what the scale receives from
-/// others and the power of friction, drag, drive and torques from outside on it.
+/// Energies by scale and their rates: dE_s/dt is the power received from other scales plus the
+/// power of friction, drag, drive and external torques.
 ///
-/// Made once and written by the functions of [`Scales`]. Beyond the scales that there
-/// are, every answer is NaN.
+/// Created once and written by the functions of [`Scales`]. For scales that do not exist every
+/// result is NaN.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ScaleBudget<T> {
     scales: usize,
-    /// By scale, then by generation.
+    /// Energies (J) by scale, then by generation.
     energies: Vec<T>,
-    /// {E_s, E_r} by s, then by r.
+    /// Transfers {E_s, E_r} (W) from scale r to scale s, by s, then by r.
     transfers: Vec<T>,
-    /// By kind, then by scale.
+    /// Powers (W) of friction, drive and other forces on the scales: by kind of force, then by
+    /// scale.
     powers: Vec<T>,
 }
 
 impl<T: Scalar> ScaleBudget<T> {
-    /// A budget of no scales.
+    /// Creates a budget without scales.
     #[must_use]
     pub const fn new() -> Self {
         Self {
@@ -156,40 +162,40 @@ impl<T: Scalar> ScaleBudget<T> {
         }
     }
 
-    /// Number of scales, zero before the budget was computed.
+    /// Returns the number of scales; zero before the budget is computed.
     #[must_use]
     pub fn scales(&self) -> usize {
         self.scales
     }
 
-    /// Energy E_s, J.
+    /// Returns the energy E_s of a scale, in J.
     #[must_use]
     pub fn energy(&self, scale: usize) -> T {
         self.sum(scale, |generation| self.energy_of(scale, generation))
     }
 
-    /// Part of E_s in the links of one generation, J: kinetic energy of these links, and
-    /// potential energy of all that they carry, as far as they turn.
+    /// Returns the part of E_s (J) that belongs to the links of one generation: their kinetic
+    /// energy, and the potential energy that their rotation gives to all links they carry.
     #[must_use]
     pub fn energy_of(&self, scale: usize, generation: usize) -> T {
         self.at(&self.energies, scale, generation)
     }
 
-    /// Transfer W(r→s) = {E_s, E_r}, W: what one scale gives another. Antisymmetric to
-    /// the last bit.
+    /// Returns the transfer W(r→s) = {E_s, E_r} from one scale to another, in W. It is exactly
+    /// antisymmetric.
     #[must_use]
     pub fn transfer(&self, from: usize, to: usize) -> T {
         self.at(&self.transfers, to, from)
     }
 
-    /// Returns the power that a scale receives from all others, W: Σ_r W(r→s).
+    /// Returns the power that a scale receives from all other scales, in W: Σ_r W(r→s).
     #[must_use]
     pub fn received(&self, scale: usize) -> T {
         self.sum(scale, |from| self.transfer(from, scale))
     }
 
-    /// Flux through a scale, W: Π_j = Σ W(r→s) over r < j ≤ s, what the scales above
-    /// give to this one and those below.
+    /// Returns the flux through a scale, in W: Π_j = Σ W(r→s) over r < j ≤ s, the power that all
+    /// scales before it supply to this scale and the scales after it.
     #[must_use]
     pub fn flux(&self, scale: usize) -> T {
         self.sum(scale, |from| match from < scale {
@@ -200,40 +206,41 @@ impl<T: Scalar> ScaleBudget<T> {
         })
     }
 
-    /// Power of friction in the pivots on a scale, W. By scale it may have either sign.
+    /// Returns the power of friction in the pivots on the energy of a scale, in W. For a single
+    /// scale it may have either sign.
     #[must_use]
     pub fn friction_power(&self, scale: usize) -> T {
         self.power_of(PowerKind::Friction, scale)
     }
 
-    /// Power of drag against the ground on a scale, W.
+    /// Returns the power of drag against the ground on the energy of a scale, in W.
     #[must_use]
     pub fn drag_power(&self, scale: usize) -> T {
         self.power_of(PowerKind::Drag, scale)
     }
 
-    /// Power of the drive on a scale, W: of the torque on the root and of the motion of
-    /// its pivot.
+    /// Returns the power of the drive on a scale, in W: of the torque on the root and of the motion
+    /// of its pivot.
     #[must_use]
     pub fn drive_power(&self, scale: usize) -> T {
         self.power_of(PowerKind::Drive, scale)
     }
 
-    /// Power of torques from outside on a scale, W.
+    /// Returns the power of external torques on a scale, in W.
     #[must_use]
     pub fn outside_power(&self, scale: usize) -> T {
         self.power_of(PowerKind::Outside, scale)
     }
 
-    /// Power of friction, drag, drive and torques from outside on a scale, W.
+    /// Returns the power of friction, drag, drive and external torques on a scale, in W.
     #[must_use]
     pub fn power(&self, scale: usize) -> T {
         let powers = PowerKind::ALL.map(|kind| self.power_of(kind, scale));
         (powers[0] + powers[1]) + (powers[2] + powers[3])
     }
 
-    /// Adds an energy (J) that a scale has besides, in the links of the scale's own generation;
-    /// none to a scale that there is not.
+    /// Adds an energy (J) to a scale; it is counted in the generation at which the scale branches.
+    /// Does nothing for a scale that does not exist.
     pub fn add_energy(&mut self, scale: usize, energy: T) {
         let place = scale * self.scales + scale;
         if let (Some(own), true) = (self.energies.get_mut(place), scale < self.scales) {
@@ -253,7 +260,7 @@ impl<T: Scalar> ScaleBudget<T> {
         }
     }
 
-    /// A sum over all scales, of one that there is.
+    /// Returns the sum of `term` over all scales; NaN if `scale` does not exist.
     fn sum(&self, scale: usize, term: impl Fn(usize) -> T) -> T {
         match scale < self.scales {
             true => (0..self.scales).fold(T::from_f64(0.0), |sum, other| sum + term(other)),
@@ -261,8 +268,9 @@ impl<T: Scalar> ScaleBudget<T> {
         }
     }
 
-    /// Makes room for so many scales, with one number everywhere.
-    pub(crate) fn fill(&mut self, scales: usize, value: T) {
+    /// Resizes the budget to the given number of scales, and sets every number to `value`. With the
+    /// functions below it, other crates write budgets of their own trees.
+    pub fn fill(&mut self, scales: usize, value: T) {
         self.scales = scales;
         let kinds = PowerKind::ALL.len();
         for (table, length) in [
@@ -275,18 +283,27 @@ impl<T: Scalar> ScaleBudget<T> {
         }
     }
 
-    pub(crate) fn set_energy(&mut self, scale: usize, generation: usize, value: T) {
-        put(&mut self.energies, scale * self.scales + generation, value);
+    /// Sets the part of a scale's energy in the links of one generation, in J. Does nothing for a
+    /// scale or generation that does not exist.
+    pub fn set_energy(&mut self, scale: usize, generation: usize, value: T) {
+        if generation < self.scales {
+            put(&mut self.energies, scale * self.scales + generation, value);
+        }
     }
 
-    /// Sets W(r→s), and −W(r→s) as W(s→r).
-    pub(crate) fn set_transfer(&mut self, from: usize, to: usize, value: T) {
-        put(&mut self.transfers, to * self.scales + from, value);
-        put(&mut self.transfers, from * self.scales + to, -value);
+    /// Sets the transfer W(r→s) to `value`, and W(s→r) to its negative. Does nothing for a scale that
+    /// does not exist.
+    pub fn set_transfer(&mut self, from: usize, to: usize, value: T) {
+        if from.max(to) < self.scales {
+            put(&mut self.transfers, to * self.scales + from, value);
+            put(&mut self.transfers, from * self.scales + to, -value);
+        }
     }
 
-    pub(crate) fn add_power(&mut self, kind: PowerKind, scale: usize, value: T) {
-        if let Some(power) = self.powers.get_mut(kind as usize * self.scales + scale) {
+    /// Adds a power (W) to those of its kind on a scale. Does nothing for a scale that does not exist.
+    pub fn add_power(&mut self, kind: PowerKind, scale: usize, value: T) {
+        let place = kind as usize * self.scales + scale;
+        if let (Some(power), true) = (self.powers.get_mut(place), scale < self.scales) {
             *power = *power + value;
         }
     }

@@ -1,27 +1,26 @@
-//! Ground floor of wide numbers: registers, what they can do, and which of them the
-//! machine has.
+//! Wide numbers: registers, their operations, and the choice of those that the machine supports.
 //!
-//! [`Lanes`] are arrays, which the compiler takes apart into numbers and puts
-//! together into registers again: well for short functions, badly and slowly for
-//! long ones. The types here are registers from the start. Nothing here knows what is
-//! computed.
+//! [`Lanes`] are arrays, which the compiler splits into single numbers and then combines into
+//! registers again. This works well for short functions, but badly and slowly for long ones. The
+//! types of this module are registers from the start. The module does not depend on what is
+//! computed with them.
 //!
-//! # What keeps instructions on machines that have them
+//! # How instructions are used only on machines that have them
 //! A register, and a number that fuses, *is* the proof that the machine has its instructions:
-//! - [`dispatch`] alone starts computations with them, once it has [`Present`] for these;
-//! - the types are this crate's, and nothing that another crate can name leads to them:
-//!   neither a public item nor an associated type of a public trait. Generic functions of
-//!   others get them as parameters, in computations that have been started;
-//! - [`Simd`] is sealed: other crates cannot say of a type of theirs what it consists of.
+//! - only [`dispatch`] starts computations with them, once it has the value [`Present`] for these
+//!   instructions;
+//! - the types are private to this crate, and no item that another crate can name leads to them:
+//!   neither a public item nor an associated type of a public trait. Generic functions of other
+//!   crates get them as type parameters, in computations that have been started;
+//! - [`Simd`] is sealed: other crates cannot declare which lanes a type of theirs consists of.
 //!
 //! [`Present`]: dispatch::Present
 
-// The traits appear in the interface of public ones, so that they must be `pub`, and
-// are named by no one else.
+// The traits occur in the interface of public ones, so that they must be `pub`; no other code names
+// them.
 #![allow(unreachable_pub)]
 
 pub(crate) mod dispatch;
-mod known;
 #[cfg(any(
     target_arch = "aarch64",
     all(target_arch = "wasm32", target_feature = "simd128")
@@ -33,13 +32,13 @@ mod permutation;
 mod plain;
 mod quad;
 mod row;
+mod with_sin_cos;
 #[cfg(all(target_arch = "x86_64", target_feature = "sse2"))]
 mod x86;
 
 use core::mem::MaybeUninit;
 
 pub use dispatch::{InstructionSet, StateKernel};
-pub(crate) use known::Known;
 #[cfg(any(
     target_arch = "aarch64",
     all(target_arch = "wasm32", target_feature = "simd128")
@@ -49,57 +48,57 @@ pub(crate) use one::Fused;
 pub use part::{Part, outlined};
 pub use quad::Quad;
 pub use row::Row;
+pub(crate) use with_sin_cos::WithSinCos;
 #[cfg(all(target_arch = "x86_64", target_feature = "sse2"))]
 pub(crate) use x86::{F32x4, F32x8, F32x16, F64x2, F64x4, F64x8};
 
 use crate::scalar::{Real, Scalar};
 
-/// A computation that is compiled for the wide numbers of every instruction set.
-/// Code that it calls profits only as far as it is inlined: write `#[inline(always)]`.
+/// A computation that is compiled for the wide numbers of every instruction set. Code that it calls
+/// profits only if it is inlined: write `#[inline(always)]`.
 pub trait Kernel<T> {
-    /// The result.
+    /// Result of the computation.
     type Output;
 
-    /// Computes with one kind of wide numbers.
+    /// Runs the computation with one kind of wide numbers.
     fn run<V: Simd<T>>(self) -> Self::Output;
 }
 
-/// The types that [`Simd`] is for: every number for itself, arrays of lanes, and the
-/// registers of this crate.
+/// The types that implement [`Simd`]: every number for itself, arrays of lanes, and the registers
+/// of this crate.
 mod sealed {
     pub trait Sealed<T> {}
 }
 use sealed::Sealed;
 
-/// A wide number: several numbers `T` in one register, each in its lane. Every
-/// number is one of itself. Sealed: other crates cannot implement it.
+/// A wide number: several numbers `T` in one register, each in its lane. Every number is also a
+/// wide number of one lane. Sealed: other crates cannot implement it.
 ///
-/// The wide registers fuse products with sums; those of the build do not. See
-/// [`Scalar::mul_add`].
+/// The wide registers use fused multiply–add; those of the build do not. See [`Scalar::mul_add`].
 #[allow(unsafe_code)]
 pub trait Simd<T>: Scalar + Sealed<T> {
     /// Number of lanes, at least one.
     const LANES: usize = <Self::Chunk as Row<T>>::LENGTH;
 
-    /// A batch of few links computes sines a register of states ahead, which needs
-    /// many registers and sines that take no branch.
+    /// True if a batch of models with few links computes the sines of the next register of states
+    /// in advance. This needs many registers, and sines without branches.
     const AHEAD: bool = false;
 
-    /// One number of the same arithmetic.
+    /// Type of a single lane with the same arithmetic.
     type One: Simd<T>;
 
-    /// Says of each lane whether it is meant.
+    /// Mask that selects lanes.
     type Mask: Copy;
 
-    /// Returns the mask of the lanes of which `meant` is true.
+    /// Returns the mask of the lanes whose index `meant` accepts.
     fn mask(meant: impl Fn(usize) -> bool) -> Self::Mask;
 
-    /// Returns this register's numbers in the lanes of `mask`, those of `other`
-    /// elsewhere.
+    /// Returns this register's numbers in the lanes of `mask`, and those of `other` in the
+    /// remaining lanes.
     fn choose(self, other: Self, mask: Self::Mask) -> Self;
 
-    /// Returns this register's numbers in the first `count` lanes, those of `other` in
-    /// the lanes behind, if there are any.
+    /// Returns this register's numbers in the first `count` lanes, and those of `other` in the
+    /// remaining lanes.
     #[inline(always)]
     fn in_first_lanes(self, count: usize, other: Self) -> Self {
         match count < Self::LANES {
@@ -108,28 +107,28 @@ pub trait Simd<T>: Scalar + Sealed<T> {
         }
     }
 
-    /// Returns the larger size, lane by lane; any of the two, or either, where one is
-    /// no number.
+    /// Returns, lane by lane, the larger of the two magnitudes. If one number is NaN, the result
+    /// may be either of them or their magnitudes.
     fn larger_size(self, other: Self) -> Self
     where
         T: Real;
 
-    /// Returns sines and cosines of all angles, if they are computed at once; none if
-    /// they are computed when asked for, by [`sin_cos_near`](Self::sin_cos_near).
+    /// Returns sines and cosines of all angles, if this type computes them together in advance;
+    /// `None` if they are computed when needed, by [`sin_cos_near`](Self::sin_cos_near).
     #[inline(always)]
     fn sin_cos_ahead<const N: usize>(angles: &[Self; N]) -> Option<([Self; N], [Self; N])> {
         Some(Self::sin_cos_each(angles))
     }
 
-    /// Returns sines and cosines of angles among those of which
-    /// [`sin_cos_ahead`](Self::sin_cos_ahead) gave none.
+    /// Returns sines and cosines of some of the angles for which
+    /// [`sin_cos_ahead`](Self::sin_cos_ahead) returned `None`.
     #[inline(always)]
     fn sin_cos_near<const N: usize>(angles: &[Self; N]) -> ([Self; N], [Self; N]) {
         Self::sin_cos_each(angles)
     }
 
-    /// Runs `kernel` in a function of its own, which is compiled for the instructions
-    /// that the number stands for.
+    /// Runs `kernel` in a separate function, which is compiled for the instructions of this number
+    /// type.
     #[inline(never)]
     fn in_own_function<K: Kernel<T>>(kernel: K) -> K::Output {
         kernel.run::<Self>()
@@ -138,60 +137,60 @@ pub trait Simd<T>: Scalar + Sealed<T> {
     /// Returns the same number in every lane.
     fn splat(value: T) -> Self;
 
-    /// Returns the numbers moved forward: lane `i` gets lane `first + i`; what has
-    /// none there is left open.
+    /// Returns the numbers moved towards the first lane: lane `i` gets lane `first + i`. Lanes
+    /// without a source have unspecified values.
     fn rotate_lanes(self, first: usize) -> Self;
 
-    /// Returns the first `count` lanes over and over.
+    /// Returns the first `count` lanes, repeated to fill the register.
     fn tile_lanes(self, count: usize) -> Self;
 
-    /// Reads the numbers at `start`, wherever a `T` may lie.
+    /// Reads the numbers at `start`, with the alignment of a `T`.
     ///
     /// # Safety
-    /// So many numbers may be read there.
+    /// [`LANES`](Self::LANES) numbers must be readable there.
     #[inline(always)]
     unsafe fn read(start: *const T) -> Self {
-        // SAFETY: the caller's. A wide number is its lanes, but for `Lanes`, which has a
-        // function of its own. They need not lie where registers would.
+        // SAFETY: guaranteed by the caller. A wide number consists of its lanes, except `Lanes`,
+        // which overrides this function. The numbers need not have the alignment of a register.
         unsafe { start.cast::<Self>().read_unaligned() }
     }
 
     /// Writes the numbers to `start`.
     ///
     /// # Safety
-    /// So many numbers may be written there.
+    /// [`LANES`](Self::LANES) numbers must be writable there.
     #[inline(always)]
     unsafe fn write(self, start: *mut T) {
         // SAFETY: as in `read`.
         unsafe { start.cast::<Self>().write_unaligned(self) }
     }
 
-    /// Writes its first `count` numbers to `start`, or all if these are fewer.
+    /// Writes the first `count` numbers to `start`, at most all of them.
     ///
     /// # Safety
-    /// So many numbers may be written there.
+    /// That number of values must be writable there.
     #[inline(always)]
     unsafe fn write_some(self, start: *mut T, count: usize)
     where
         T: Copy,
     {
         let numbers = self.to_chunk();
-        // Over all lanes, so that compilers do not call a function that copies.
+        // A loop over all lanes, so that the compiler does not call a copying function.
         for (lane, &number) in numbers.as_ref().iter().enumerate() {
             if lane < count {
-                // SAFETY: the caller's.
+                // SAFETY: guaranteed by the caller.
                 unsafe { start.add(lane).write(number) }
             }
         }
     }
 
-    /// Reads the first numbers of a slice, if it has enough.
+    /// Reads numbers from the beginning of a slice; `None` if it is too short.
     #[inline(always)]
     fn load(numbers: &[T]) -> Option<Self> {
         Self::Chunk::first_of(numbers).map(Self::from_chunk)
     }
 
-    /// Reads the first numbers of a slice, and zeros behind its end.
+    /// Reads numbers from the beginning of a slice, and zeros beyond its end.
     #[inline(always)]
     fn load_front(numbers: &[T]) -> Self
     where
@@ -203,74 +202,75 @@ pub trait Simd<T>: Scalar + Sealed<T> {
         }
     }
 
-    /// Writes the numbers to the front of a slice. A slice too short gets none.
+    /// Writes the numbers to the beginning of a slice. A slice that is too short is left unchanged.
     #[inline(always)]
     fn store(self, numbers: &mut [T]) {
         if numbers.len() >= Self::LANES {
-            // SAFETY: there are places for so many.
+            // SAFETY: the slice has at least that many elements.
             unsafe { self.write(numbers.as_mut_ptr()) }
         }
     }
 
-    /// Writes the numbers to the end of a slice. A slice too short gets none.
+    /// Writes the numbers to the end of a slice. A slice that is too short is left unchanged.
     #[inline(always)]
     fn store_last(self, numbers: &mut [T]) {
         let first = numbers.len().wrapping_sub(Self::LANES);
         self.store(numbers.get_mut(first..).unwrap_or_default());
     }
 
-    /// Reads wide number `index` of those in `quads`, of which each has four or one.
+    /// Reads the wide number with the given index from `quads`; the wide number must have four
+    /// lanes or one.
     #[inline(always)]
     fn load_quad(quads: &[Quad<T>], index: usize) -> Self {
         const { assert!(4 % Self::LANES == 0) }
         let first = index * Self::LANES;
         match Self::load(&quads[first / 4].0[first % 4..]) {
             Some(numbers) => numbers,
-            // There are so many: asserted.
+            // The length is asserted, so this case does not occur.
             None => Self::from_f64(f64::NAN),
         }
     }
 
-    /// Writes what [`load_quad`](Self::load_quad) reads.
+    /// Writes the wide number that [`load_quad`](Self::load_quad) reads.
     #[inline(always)]
     fn store_quad(self, quads: &mut [Quad<T>], index: usize) {
         let first = index * Self::LANES;
         self.store(&mut quads[first / 4].0[first % 4..]);
     }
 
-    /// `self` + a b, rounded as [`mul_add`](Scalar::mul_add) does.
+    /// Returns `self` + a b, rounded as [`mul_add`](Scalar::mul_add) does.
     #[inline(always)]
     fn plus_product(self, a: Self, b: Self) -> Self {
         a.mul_add(b, self)
     }
 
-    /// `self` − a b, rounded as [`mul_add`](Scalar::mul_add) does.
+    /// Returns `self` − a b, rounded as [`mul_add`](Scalar::mul_add) does.
     #[inline(always)]
     fn minus_product(self, a: Self, b: Self) -> Self {
         (-a).mul_add(b, self)
     }
 
-    /// The numbers as they lie in memory: an array of so many.
+    /// Array that holds the numbers of all lanes, as in memory.
     type Chunk: Row<T>;
 
-    /// Returns the last numbers of a slice, if it has enough.
+    /// Returns the last [`LANES`](Self::LANES) numbers of a slice, or `None` if it is too short.
     #[inline(always)]
     fn last_chunk(numbers: &[T]) -> Option<&Self::Chunk> {
         Self::Chunk::last_of(numbers)
     }
 
-    /// Reads numbers.
+    /// Creates a wide number from an array.
     #[inline(always)]
     fn from_chunk(numbers: &Self::Chunk) -> Self {
-        // SAFETY: a chunk holds so many numbers.
+        // SAFETY: a chunk holds exactly `LANES` numbers.
         unsafe { Self::read(core::ptr::from_ref(numbers).cast()) }
     }
 
-    /// Returns the numbers in their order.
+    /// Returns the numbers of all lanes, in order.
     #[inline(always)]
     fn to_chunk(self) -> Self::Chunk {
         let mut chunk = MaybeUninit::<Self::Chunk>::uninit();
-        // SAFETY: a chunk has places for so many numbers, and consists of nothing else.
+        // SAFETY: a chunk consists of exactly `LANES` numbers.
         unsafe {
             self.write(chunk.as_mut_ptr().cast());
             chunk.assume_init()
@@ -288,7 +288,7 @@ pub trait Simd<T>: Scalar + Sealed<T> {
     }
 }
 
-/// Numbers in the widest register.
+/// Number of lanes of the widest register.
 pub(crate) const WIDEST: usize = 16;
 
 #[cold]
@@ -301,45 +301,48 @@ fn load_few<T: Scalar, V: Simd<T>>(few: &[T]) -> V {
     }
     match V::load(&numbers) {
         Some(front) => front,
-        // There are enough numbers: asserted.
+        // The length is asserted, so this case does not occur.
         None => V::from_f64(f64::NAN),
     }
 }
 
-/// Returns memory of plain numbers as wide ones, from where the first one would lie;
-/// none of a type that is not its numbers alone.
+/// Views a slice of plain numbers as wide numbers, beginning at the first aligned position. Returns
+/// `None` for types whose memory does not consist of lanes only.
 #[allow(unsafe_code)]
 pub(crate) fn wide_slice<T: Scalar, V: Simd<T>>(numbers: &mut [T]) -> Option<&mut [V]> {
     if size_of::<V>() != V::LANES * size_of::<T>() {
         return None;
     }
-    // SAFETY: a wide number is its lanes, and no more by its size; any numbers are lanes.
+    // SAFETY: a wide number consists of its lanes only, as its size shows, and every value of a
+    // lane is valid.
     Some(unsafe { numbers.align_to_mut().1 })
 }
 
-/// Returns true if a number `V` is one `T` and nothing else, wherever that may lie.
+/// Returns true if a `V` consists of exactly one `T`, with the same alignment.
 const fn is_one<T, V: Simd<T>>() -> bool {
     V::LANES == 1 && size_of::<V>() == size_of::<T>() && align_of::<V>() <= align_of::<T>()
 }
 
-/// Returns plain numbers as numbers of one lane; none of a type that is more than that lane.
+/// Views a slice of plain numbers as numbers of one lane; `None` for types that are larger than
+/// that lane.
 #[allow(unsafe_code)]
 #[inline(always)]
 pub(crate) fn one_slice<T, V: Simd<T>>(numbers: &[T]) -> Option<&[V]> {
     if !const { is_one::<T, V>() } {
         return None;
     }
-    // SAFETY: each is one such number, by its lanes, its size and its alignment.
+    // SAFETY: each element is one such number, by its lanes, its size and its alignment.
     Some(unsafe { core::slice::from_raw_parts(numbers.as_ptr().cast(), numbers.len()) })
 }
 
-/// Does so with memory that is written to.
+/// Views a mutable slice of plain numbers as numbers of one lane; `None` for types that are larger
+/// than that lane.
 #[allow(unsafe_code)]
 #[inline(always)]
 pub(crate) fn one_slice_mut<T, V: Simd<T>>(numbers: &mut [T]) -> Option<&mut [V]> {
     if !const { is_one::<T, V>() } {
         return None;
     }
-    // SAFETY: as above, and any number of one kind is one of the other.
+    // SAFETY: as above, and every value of one type is valid for the other.
     Some(unsafe { core::slice::from_raw_parts_mut(numbers.as_mut_ptr().cast(), numbers.len()) })
 }

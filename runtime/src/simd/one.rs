@@ -1,4 +1,4 @@
-//! One number that fuses.
+//! A single number with fused multiply-add.
 
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -7,10 +7,10 @@ use crate::scalar::Scalar;
 use crate::scalar::kind::ByKind;
 use crate::scalar::sincos::fused;
 
-/// A plain number whose [`Scalar::mul_add`] is fused: what a lane of the wide
-/// registers computes, for one state.
+/// A plain number whose [`Scalar::mul_add`] is fused. It computes for one state exactly what a lane
+/// of the wide registers computes.
 ///
-/// Exists only in functions compiled for AVX2 and FMA ([`dispatch`]).
+/// It exists only in functions compiled for AVX2 and FMA ([`dispatch`]).
 ///
 /// [`dispatch`]: super::dispatch
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -133,7 +133,7 @@ macro_rules! fused {
 
             #[inline(always)]
             fn only_low_bits(self) -> bool {
-                self.0.to_bits() & <$float as fused::Float>::ABOVE.to_bits() == 0
+                self.0.to_bits() & <$float as fused::Float>::HIGH_BITS.to_bits() == 0
             }
 
             #[inline(always)]

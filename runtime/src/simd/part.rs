@@ -1,21 +1,21 @@
-//! Parts of functions that are too long to be one.
+//! Parts of emitted functions that are too long to be compiled in one piece.
 
 use super::{Kernel, Simd};
 use crate::scalar::Scalar;
 use crate::scalar::kind::ByKind;
 
-/// A part of an emitted function that is too long to be one.
+/// A part of an emitted function that is too long to be compiled in one piece.
 #[doc(hidden)]
 pub trait Part<const NUMBER: usize, A> {
-    /// The values that the part hands on.
+    /// Values that the part returns.
     type Output;
 
-    /// Computes it.
+    /// Computes the part.
     fn part(&self, arguments: A) -> Self::Output;
 }
 
-/// Computes a part in a function of its own, which is compiled for the instructions
-/// that the number `S` stands for.
+/// Computes a part in a separate function, which is compiled for the instructions of the number
+/// type `S`.
 #[doc(hidden)]
 #[inline(always)]
 pub fn outlined<const NUMBER: usize, S, A, M>(model: &M, arguments: A) -> M::Output
@@ -26,7 +26,7 @@ where
     S::by_kind(PartOf { model, arguments })
 }
 
-/// A [`Part`] with what it gets.
+/// A [`Part`] with its arguments.
 struct PartOf<'a, const NUMBER: usize, M, A> {
     model: &'a M,
     arguments: A,

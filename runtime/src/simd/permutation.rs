@@ -1,8 +1,7 @@
-//! Words of a register: where each goes, and which are meant.
+//! Tables of permutations and masks for the 32-bit words of a register.
 
-/// Where each word of a register comes from for
-/// [`rotate_lanes`](super::Simd::rotate_lanes), for each lane that may be the first;
-/// a lane has `WORDS / N` words.
+/// Returns the source index of each word for [`tile_lanes`](super::Simd::tile_lanes); entry n − 1
+/// is for n repeated lanes.
 pub(super) const fn rotated<const N: usize, const WORDS: usize>() -> [[u32; WORDS]; N] {
     let mut table = [[0; WORDS]; N];
     let mut i = 0;
@@ -14,7 +13,8 @@ pub(super) const fn rotated<const N: usize, const WORDS: usize>() -> [[u32; WORD
     table
 }
 
-/// Where they come from for [`tile_lanes`](super::Simd::tile_lanes), for each count less one.
+/// Returns the source index of each word for [`tile_lanes`](super::Simd::tile_lanes), for each
+/// count minus one.
 pub(super) const fn tiled<const N: usize, const WORDS: usize>() -> [[u32; WORDS]; N] {
     let mut table = [[0; WORDS]; N];
     let mut i = 0;
@@ -26,9 +26,9 @@ pub(super) const fn tiled<const N: usize, const WORDS: usize>() -> [[u32; WORDS]
     table
 }
 
-/// All bits of the words in the first lanes, for each count of these, and none of the
-/// others.
-// As for kernels on one state.
+/// Returns, for each number of lanes, a mask with all bits set in the words of that many first
+/// lanes.
+// Unused on targets with a single instruction set.
 #[cfg_attr(not(all(feature = "std", target_arch = "x86_64")), allow(dead_code))]
 pub(super) const fn first_lanes<const N: usize, const WORDS: usize>() -> [[u32; WORDS]; N] {
     let mut table = [[0; WORDS]; N];

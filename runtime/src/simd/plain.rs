@@ -1,4 +1,4 @@
-//! Numbers that are no registers: one of any kind, and arrays.
+//! Wide numbers that are not registers: a number of any type, and arrays.
 
 #![allow(unsafe_code)]
 
@@ -9,7 +9,7 @@ use crate::scalar::{Lanes, Real, Scalar};
 impl<T: Scalar> Sealed<T> for T {}
 impl<T: Scalar, const N: usize> Sealed<T> for Lanes<T, N> {}
 
-/// Every number is a wide one of one lane.
+/// Every number is a wide number of one lane.
 impl<T: Scalar> Simd<T> for T {
     type One = T;
     type Mask = bool;
@@ -49,7 +49,7 @@ impl<T: Scalar> Simd<T> for T {
     }
 }
 
-/// The registers of instruction sets that this crate has no type for.
+/// Arrays replace registers of instruction sets for which this crate has no type.
 impl<T: Scalar, const N: usize> Simd<T> for Lanes<T, N> {
     type One = T;
     type Mask = [bool; N];
@@ -95,13 +95,13 @@ impl<T: Scalar, const N: usize> Simd<T> for Lanes<T, N> {
 
     #[inline(always)]
     unsafe fn read(start: *const T) -> Self {
-        // SAFETY: the caller's. Numbers need not lie where lanes would.
+        // SAFETY: guaranteed by the caller. The numbers need not have the alignment of `Lanes`.
         Lanes(unsafe { start.cast::<[T; N]>().read_unaligned() })
     }
 
     #[inline(always)]
     unsafe fn write(self, start: *mut T) {
-        // SAFETY: the caller's. Numbers need not lie where lanes would.
+        // SAFETY: guaranteed by the caller. The numbers need not have the alignment of `Lanes`.
         unsafe { start.cast::<[T; N]>().write_unaligned(self.0) }
     }
 

@@ -1,17 +1,17 @@
-//! Four numbers side by side: memory of the recurrences.
+//! Groups of four numbers: the memory layout of the Taylor recurrences.
 
 use crate::scalar::Scalar;
 
-/// Four numbers side by side in memory, aligned as vector instructions like it.
+/// Four consecutive numbers in memory, aligned for vector instructions.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C, align(32))]
 pub struct Quad<T>(
-    /// The numbers.
+    /// The four numbers.
     pub [T; 4],
 );
 
 impl<T: Scalar> Quad<T> {
-    /// One number four times.
+    /// Returns four copies of a number.
     #[inline(always)]
     #[must_use]
     pub fn splat(value: T) -> Self {

@@ -1,4 +1,4 @@
-//! Arrays of numbers.
+//! Arrays of fixed length.
 
 mod sealed {
     pub trait Sealed {}
@@ -6,21 +6,20 @@ mod sealed {
     impl<V, const N: usize> Sealed for [V; N] {}
 }
 
-/// A fixed number of values: an array, and nothing else. Sealed: other crates cannot
-/// implement it.
+/// An array whose number of values is part of its type. Sealed: other crates cannot implement it.
 pub trait Row<V>: Copy + AsRef<[V]> + AsMut<[V]> + sealed::Sealed {
     /// Number of values.
     const LENGTH: usize;
 
-    /// Returns the row that has `value` everywhere.
+    /// Returns an array filled with `value`.
     #[doc(hidden)]
     fn filled(value: V) -> Self;
 
-    /// Returns the first values of a slice, if it has enough.
+    /// Returns the first values of a slice, or `None` if it is too short.
     #[doc(hidden)]
     fn first_of(values: &[V]) -> Option<&Self>;
 
-    /// Returns the last values of a slice, if it has enough.
+    /// Returns the last values of a slice, or `None` if it is too short.
     #[doc(hidden)]
     fn last_of(values: &[V]) -> Option<&Self>;
 }

@@ -1,8 +1,8 @@
-//! Traits of models and systems, for references to them.
+//! Macro that implements traits of models and systems for references to them.
 
-/// Implements a trait for references to what implements it. The methods are listed as
-/// signatures; all are handed on, those with a default too. Functions on any scalar are
-/// listed behind `for`.
+/// Implements a trait for references to types that implement it. The methods are listed as
+/// signatures; all are forwarded, including methods with a default. Functions that are generic over
+/// the scalar are listed after `for`.
 macro_rules! by_reference {
     (impl<T $(: $bound:ident)?> $trait:ident<T> for &P $(where P: ?$sized:ident)? {
         $(const $constant:ident: $kind:ty;)*

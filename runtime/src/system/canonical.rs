@@ -7,10 +7,9 @@ use crate::scalar::Scalar;
 
 /// Hamilton's equations, q' = ∂H/∂p, p' = −∂H/∂q + Q, in canonical variables.
 ///
-/// For a pendulum with mass matrix M the velocities are q' = M⁻¹p and the rates
-/// of the momenta ∂L/∂q at these velocities: no derivative of M⁻¹ is needed.
-/// Generalised forces Q, such as friction, belong to p' where there are any;
-/// the motion is symplectic without them.
+/// For a pendulum with mass matrix M the velocities are q' = M⁻¹p and the rates of the momenta
+/// ∂L/∂q at these velocities: no derivative of M⁻¹ is needed. Generalised forces Q, such as
+/// friction, are part of p'; without them the motion is symplectic.
 ///
 /// # Examples
 ///
@@ -44,14 +43,13 @@ use crate::scalar::Scalar;
     note = "a model has them with `emit(momenta)` in its attribute"
 )]
 pub trait Canonical<T> {
-    /// Number of coordinates, and of momenta.
+    /// Returns the number of coordinates, which equals the number of momenta.
     fn degrees_of_freedom(&self) -> usize;
 
-    /// Writes the rates of the coordinates `q` (rad) and of the momenta `p`
-    /// (kg m²/s) at `time` (s). All four slices have length
-    /// [`degrees_of_freedom`](Self::degrees_of_freedom).
+    /// Writes the rates of the coordinates `q` (rad) and of the momenta `p` (kg m²/s) at `time`
+    /// (s). All four slices have length [`degrees_of_freedom`](Self::degrees_of_freedom).
     ///
-    /// Where there is no answer, write NaN.
+    /// Writes NaN where the rates are undefined.
     fn canonical_rates(&self, time: T, q: &[T], p: &[T], q_rates: &mut [T], p_rates: &mut [T]);
 }
 
@@ -62,8 +60,8 @@ by_reference! {
     }
 }
 
-/// A [`Canonical`] system as a first-order system: the state is the
-/// coordinates followed by the momenta. Holds the system, or a reference to it.
+/// A [`Canonical`] system as a first-order system: the state is the coordinates followed by the
+/// momenta. Contains the system, or a reference to it.
 #[derive(Clone, Copy, Debug)]
 pub struct CanonicalVariables<C>(pub C);
 
@@ -94,18 +92,18 @@ impl<T: Scalar, C: Canonical<T>> Ode<T> for CanonicalVariables<C> {
 }
 
 impl<T: Scalar> State<T> {
-    /// A state of a [`Canonical`] system at `time`.
+    /// Returns the state of a [`Canonical`] system with coordinates `q` and momenta `p` at `time`
+    /// (s).
     ///
     /// # Errors
     ///
-    /// [`LengthMismatch`] unless both slices have the same length; the momenta
-    /// stand in the place of the velocities.
+    /// [`LengthMismatch`] unless both slices have the same length; its number of velocities is that
+    /// of momenta.
     pub fn from_positions_and_momenta(time: T, q: &[T], p: &[T]) -> Result<Self, LengthMismatch> {
         Self::from_positions_and_velocities(time, q, p)
     }
 
-    /// The momenta of a state of a [`Canonical`] system: the second half of
-    /// its components.
+    /// Returns the momenta in a state of a [`Canonical`] system: the second half of its components.
     pub fn momenta(&self) -> &[T] {
         self.velocities()
     }

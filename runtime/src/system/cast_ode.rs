@@ -1,14 +1,14 @@
-//! Systems of equations on other scalars.
+//! Conversion of systems of equations to other scalar types.
 
 use super::Ode;
 
-/// A system of equations that can be taken to the scalar `S`: a model in its
-/// coordinates.
+/// System of equations whose constants can be converted to the scalar type `S`, such as a model in
+/// its coordinates.
 ///
 /// # Examples
 ///
-/// One motion in double-double numbers beside that in `f64`, and what rounding did to
-/// the latter:
+/// This example compares the rates in double-double numbers with those in `f64`, to see the effect
+/// of rounding:
 ///
 #[cfg_attr(feature = "macros", doc = "```")]
 #[cfg_attr(not(feature = "macros"), doc = "```ignore")]
@@ -40,10 +40,10 @@ use super::Ode;
     note = "`AbsoluteAngles(&model)`, `SymmetricCoordinates(&model)` and `CanonicalVariables(&model)` can; equations that are generic over the scalar need not be"
 )]
 pub trait CastOde<T, S>: Ode<T> {
-    /// The system on that scalar.
+    /// The type of the system after the conversion.
     type Of: Ode<S>;
 
-    /// Takes every constant through `convert`, which should change their type and not
-    /// their value.
+    /// Returns the system with each constant converted by `convert`, which must change the type of
+    /// a constant but not its value.
     fn cast(&self, convert: impl Fn(T) -> S) -> Self::Of;
 }

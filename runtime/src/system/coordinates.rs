@@ -1,16 +1,15 @@
-//! Pendulums as first-order systems.
+//! Pendulums as first-order systems, in absolute angles and in symmetric coordinates.
 
-use super::function::{At, Computes, compute_in, functions};
+use super::function::{At, Computes, functions};
 use super::model::twice;
+use super::motion::{Free, Motion, MotionFunction};
 use super::ode::halves;
 use super::pendulum::put;
-use super::second_order::{CastSecondOrder, SecondOrder, SecondOrderOde};
 use super::{CastOde, LaneOde, Model, Ode, Pendulum, Workspace};
 use crate::scalar::{Scalar, at};
 
-/// A pendulum as a first-order system in absolute angles: the state is the
-/// angles followed by the angular velocities. Holds a pendulum, or a reference to
-/// one.
+/// A pendulum as a first-order system in absolute angles: the state is the angles followed by the
+/// angular velocities. Contains a pendulum, or a reference to one.
 #[derive(Clone, Copy, Debug)]
 pub struct AbsoluteAngles<P>(pub P);
 
@@ -38,8 +37,8 @@ impl<T: Scalar, P: Pendulum<T>> Ode<T> for AbsoluteAngles<P> {
 /// Equations of motion in symmetric coordinates: means and differences of
 /// identical sibling subtrees.
 ///
-/// There are as many coordinates as links. A set of differences that is
-/// exactly zero, with its rates, has accelerations that are exactly zero.
+/// There are as many coordinates as links. If all differences of a set, and their rates, are
+/// exactly zero, their accelerations are exactly zero too.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` has no symmetric coordinates in `{T}`",
     note = "a tree with identical siblings has them with `emit(symmetric)` in its attribute"
@@ -47,13 +46,13 @@ impl<T: Scalar, P: Pendulum<T>> Ode<T> for AbsoluteAngles<P> {
 pub trait SymmetricPendulum<T: Scalar>:
     Pendulum<T> + Computes<functions::SymmetricAccelerations, T>
 {
-    /// Names of the coordinates, in order.
+    /// Names of the symmetric coordinates, in order.
     const COORDINATE_NAMES: &'static [&'static str];
 
-    /// Writes the second time derivatives of the coordinates, in rad/s², for
-    /// `coordinates` (rad) and `rates` (rad/s) at `time` (s).
+    /// Writes the second time derivatives (rad/s²) of the coordinates, for `coordinates` (rad) and
+    /// `rates` (rad/s) at `time` (s).
     ///
-    /// Lengths as in [`Pendulum::accelerations_into`].
+    /// The lengths are those of [`Pendulum::accelerations_into`].
     #[inline]
     fn symmetric_accelerations_into(
         &self,
@@ -72,59 +71,19 @@ impl<T: Scalar, P: SymmetricPendulum<T>> SymmetricPendulum<T> for &P {
     const COORDINATE_NAMES: &'static [&'static str] = P::COORDINATE_NAMES;
 }
 
-/// A pendulum as a first-order system in symmetric coordinates: the state is
-/// the coordinates followed by their rates. Holds a pendulum, or a reference to one.
-pub type SymmetricCoordinates<P> = SecondOrderOde<Symmetric<P>>;
+/// A pendulum as a first-order system in symmetric coordinates: the state is the coordinates
+/// followed by their rates. Contains a pendulum, or a reference to one.
+pub type SymmetricCoordinates<P> = Motion<P, functions::SymmetricAccelerations, Free>;
 
-/// A model in symmetric coordinates: [`SymmetricCoordinates`](type@SymmetricCoordinates).
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Symmetric<P>(P);
-
-/// Returns a pendulum, or a reference to one, in symmetric coordinates as a first-order system.
+/// Creates the first-order system of a pendulum (or of a reference to one) in symmetric
+/// coordinates.
 #[allow(non_snake_case)]
 pub const fn SymmetricCoordinates<P>(pendulum: P) -> SymmetricCoordinates<P> {
-    SecondOrderOde(Symmetric(pendulum))
+    Motion::new_of(pendulum, 0, 0, Free)
 }
 
-impl<T: Scalar, P: Computes<functions::SymmetricAccelerations, T>> SecondOrder<T> for Symmetric<P> {
-    fn coordinates(&self) -> usize {
-        self.0.links()
-    }
-
-    #[inline(always)]
-    fn rates(
-        &self,
-        workspace: Option<&mut Workspace<T>>,
-        time: T,
-        [coordinates, velocities]: [&[T]; 2],
-        [rates, accelerations]: [&mut [T]; 2],
-    ) {
-        rates.copy_from_slice(velocities);
-        let given = [coordinates, velocities];
-        compute_in(
-            &self.0,
-            workspace,
-            At::time(time),
-            &given,
-            &mut [accelerations],
-        );
-    }
-}
-
-impl<T: Scalar, P: Computes<functions::SymmetricAccelerations, T>> CastSecondOrder<T>
-    for Symmetric<P>
-{
-    type On<S: Scalar> = Symmetric<P::On<S>>;
-
+impl<P: Computes<Self, T>, T: Scalar> MotionFunction<P, T> for functions::SymmetricAccelerations {
     const COORDINATES: Option<usize> = P::KNOWN_LINKS;
-
-    fn on<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Self::On<S> {
-        Symmetric(self.0.on(convert))
-    }
-
-    fn shape(&self) -> usize {
-        self.0.shape()
-    }
 }
 
 impl<T: Scalar, S: Scalar, P: Pendulum<T>> CastOde<T, S> for AbsoluteAngles<P> {
@@ -146,7 +105,7 @@ impl<T: Scalar, P: Pendulum<T>> LaneOde<T> for AbsoluteAngles<P> {
 
     #[inline(always)]
     fn rates_of<S: Scalar>(pendulum: &P::Of<S>, time: S, state: &[S], rates: &mut [S]) {
-        // As many as the compiler knows them to be.
+        // Uses the number that the compiler knows, if it does.
         let links = pendulum.links();
         let (Some(state), Some(rates)) = (state.get(..2 * links), rates.get_mut(..2 * links))
         else {
@@ -170,8 +129,8 @@ impl<T: Scalar, P: Pendulum<T>> LaneOde<T> for AbsoluteAngles<P> {
     }
 }
 
-/// q' = v, v' = a(q, v). Slices of another length than 2n have no answer, and
-/// get NaN.
+/// Writes the rates of a second-order system, q' = v and v' = a(q, v); NaN if a slice does not have
+/// 2n numbers.
 #[inline]
 fn second_order<T: Scalar>(
     n: usize,

@@ -1,17 +1,17 @@
-//! Derivatives of functions of a state, by dual numbers.
+//! Derivatives of functions of a state, computed with dual numbers.
 
 use alloc::vec::Vec;
 
 use crate::scalar::{Dual, Scalar};
 
-/// Derivatives that are formed at once.
+/// Number of derivatives that one evaluation computes.
 const WIDTH: usize = 8;
 
-/// A number with some derivatives.
+/// A number with several derivatives.
 pub type Slopes<T> = Dual<T, WIDTH>;
 
-/// Writes the derivatives of a function by its variables, some at once: as many as there are
-/// `slopes`.
+/// Writes the derivatives of a function by its variables to `slopes`. Each evaluation computes
+/// several of them at once.
 pub fn gradient<T: Scalar>(
     values: &[T],
     slopes: &mut [T],

@@ -1,17 +1,18 @@
-//! Quantities that a motion keeps.
+//! Quantities that a motion conserves.
 
 use super::derivatives::{Slopes, gradient};
 use super::ode::halves;
 use super::{Canonical, Energy, Model, Workspace};
 use crate::scalar::Scalar;
 
-/// A function of the state that is constant along every motion, with its
-/// gradient. [`Projected`](crate::integrate::Projected) holds states to one.
+/// A function of the state that is constant along every motion, with its gradient.
+/// [`Projected`](crate::integrate::Projected) keeps the states of an integration at its initial
+/// value.
 ///
-/// A function `(state, gradient) -> value` is one.
+/// Any function `(state, gradient) -> value` implements this trait.
 pub trait FirstIntegral<T> {
-    /// The value at `state`; its derivatives by the components of the state go to
-    /// `gradient`, of the same length.
+    /// Returns the value at `state`, and writes its derivatives by the components of the state to
+    /// `gradient`, which has the same length.
     fn evaluate(&self, state: &[T], gradient: &mut [T]) -> T;
 }
 
@@ -21,11 +22,11 @@ impl<T, F: Fn(&[T], &mut [T]) -> T> FirstIntegral<T> for F {
     }
 }
 
-/// The energy of a pendulum in canonical variables, H = K + U, with the gradient
-/// (−p', q') of Hamilton's equations. Holds a pendulum, or a reference to one.
+/// The energy of a pendulum in canonical variables, H = K + U, with the gradient (−p', q') of
+/// Hamilton's equations. Contains a pendulum, or a reference to one.
 ///
-/// For conservative pendulums: where friction or a drive are part of p', H is no
-/// first integral, and what this writes is not its gradient.
+/// It is valid for conservative pendulums only: if p' includes friction or a drive, H is not
+/// conserved, and the vector written is not its gradient.
 ///
 /// # Examples
 ///
@@ -70,10 +71,10 @@ impl<T: Scalar, P: Canonical<T> + Energy<T>> FirstIntegral<T> for CanonicalEnerg
     }
 }
 
-/// The energy of a pendulum in absolute angles, K + U, with the gradient by dual numbers.
+/// The energy of a pendulum in absolute angles, K + U, with the gradient computed by dual numbers.
 ///
-/// For conservative pendulums, as [`CanonicalEnergy`]. Costs some n/8 energies of n links, and
-/// allocates.
+/// It is valid for conservative pendulums only, like [`CanonicalEnergy`]. A gradient takes about
+/// n/8 evaluations of the energy for n links, and allocates.
 ///
 /// # Examples
 ///
@@ -106,7 +107,7 @@ pub struct TotalEnergy<P, D> {
 }
 
 impl<P> TotalEnergy<P, ()> {
-    /// Returns the energy of a pendulum, or of a reference to one.
+    /// Returns the energy of a pendulum (or of a reference to one) as a first integral.
     #[allow(clippy::new_ret_no_self)]
     pub fn new<T: Scalar>(pendulum: P) -> TotalEnergy<P, P::Of<Slopes<T>>>
     where

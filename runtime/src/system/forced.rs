@@ -1,15 +1,15 @@
-//! Pendulums under torques from outside.
+//! Pendulums under external torques.
 
 use alloc::vec::Vec;
 
-use super::function::{At, Computes, compute_in, functions};
-use super::second_order::{CastSecondOrder, HandedOver, SecondOrder, SecondOrderOde};
+use super::function::{At, Computes, SliceCounts, functions};
+use super::motion::{Action, CastAction, Motion, MotionFunction, Opaque};
 use super::{Pendulum, Workspace};
 use crate::scalar::Scalar;
 
-/// Equations of motion with torques that the caller hands over: wind, a hand, a motor,
-/// contact. Models have them with `emit(forces)`; what computes
-/// [`AccelerationsUnderTorques`](functions::AccelerationsUnderTorques) implements this.
+/// Equations of motion with torques that the caller passes: wind, a hand, a motor, contact. Models
+/// have them with `emit(forces)`; every type that computes
+/// [`AccelerationsUnderTorques`](functions::AccelerationsUnderTorques) implements this trait.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` takes no torques from outside",
     note = "a model takes them with `emit(forces)` in its attribute"
@@ -17,14 +17,14 @@ use crate::scalar::Scalar;
 pub trait Forced<T: Scalar>:
     Pendulum<T> + Computes<functions::AccelerationsUnderTorques, T>
 {
-    /// Writes the angular accelerations, in rad/s², as
-    /// [`Pendulum::accelerations_into`] does, with
-    /// generalized torques Q (N m) on top of all others: M θ̈ + b = Q. Their power is Q·ω. All
-    /// slices have one number for each [link](super::Model::links); for others the results are NaN.
+    /// Writes the angular accelerations (rad/s²) like [`Pendulum::accelerations_into`], with
+    /// generalized torques Q (N m) in addition to all others: M θ̈ + b = Q. Their power is Q·ω. All
+    /// slices have one number for each [link](super::Model::links); for other lengths the results
+    /// are NaN.
     ///
-    /// Q_i is a couple on link i. Forces on links have the torques that
-    /// [`Positions`](super::Positions) tells. On a link that stands for several of a
-    /// whole tree it is the sum of the torques on these:
+    /// Q_i is a couple on link i. For the torques of forces on links, see
+    /// [`Positions`](super::Positions). If a link represents several links of a whole tree, its
+    /// torque is the sum of the torques on these:
     /// [`WholeTree::torques`](super::WholeTree::torques).
     #[inline]
     fn accelerations_under_into(
@@ -39,8 +39,8 @@ pub trait Forced<T: Scalar>:
         self.accelerations_under_with(workspace, time, theta, omega, torques, alpha);
     }
 
-    /// Writes the same accelerations, in memory that the caller keeps, as
-    /// [`Pendulum::accelerations_with`].
+    /// Writes the same accelerations, using memory that the caller keeps, as
+    /// [`Pendulum::accelerations_with`] does.
     #[inline]
     fn accelerations_under_with(
         &self,
@@ -52,7 +52,57 @@ pub trait Forced<T: Scalar>:
         alpha: &mut [T],
     ) {
         let given = [theta, omega, torques];
-        self.compute_with(workspace, At::time(time), &given, &mut [alpha]);
+        Computes::<functions::AccelerationsUnderTorques, T>::compute_with(
+            self,
+            workspace,
+            At::time(time),
+            &given,
+            &mut [alpha],
+        );
+    }
+
+    /// Writes the generalized torques Q (N m) that give the links the angular accelerations `alpha`
+    /// (rad/s²): Q = M θ̈ + b, the inverse of
+    /// [`accelerations_under_into`](Self::accelerations_under_into). All slices have one number for
+    /// each [link](super::Model::links); for other lengths the results are NaN. Compiled models
+    /// have this function if the description has `emit(inverse_dynamics)`.
+    #[inline]
+    fn inverse_dynamics_into(
+        &self,
+        time: T,
+        theta: &[T],
+        omega: &[T],
+        alpha: &[T],
+        torques: &mut [T],
+    ) where
+        Self: Computes<functions::InverseDynamics, T>,
+    {
+        let workspace = &mut Workspace::new();
+        self.inverse_dynamics_with(workspace, time, theta, omega, alpha, torques);
+    }
+
+    /// Writes the same torques, with a workspace that the caller keeps, as
+    /// [`Pendulum::accelerations_with`] does.
+    #[inline]
+    fn inverse_dynamics_with(
+        &self,
+        workspace: &mut Workspace<T>,
+        time: T,
+        theta: &[T],
+        omega: &[T],
+        alpha: &[T],
+        torques: &mut [T],
+    ) where
+        Self: Computes<functions::InverseDynamics, T>,
+    {
+        let given = [theta, omega, alpha];
+        Computes::<functions::InverseDynamics, T>::compute_with(
+            self,
+            workspace,
+            At::time(time),
+            &given,
+            &mut [torques],
+        );
     }
 }
 
@@ -61,8 +111,8 @@ impl<T: Scalar, P> Forced<T> for P where
 {
 }
 
-/// Generalized torques from outside, as a function of time, angles and velocities.
-/// Functions `|time, theta, omega, torques| …` are some.
+/// Generalized external torques as a function of time, angles and velocities. Functions `|time,
+/// theta, omega, torques| …` implement this trait.
 pub trait Torques<T> {
     /// Writes the torques (N m) at `time` (s), angles `theta` (rad) and angular
     /// velocities `omega` (rad/s).
@@ -76,7 +126,7 @@ impl<T, F: Fn(T, &[T], &[T], &mut [T])> Torques<T> for F {
     }
 }
 
-/// Torques that stay as they are until the caller changes them, one for each link.
+/// Torques that stay constant until the caller changes them, one for each link.
 impl<T: Scalar> Torques<T> for Vec<T> {
     #[inline]
     fn torques_into(&self, _: T, _: &[T], _: &[T], torques: &mut [T]) {
@@ -88,11 +138,11 @@ impl<T: Scalar> Torques<T> for Vec<T> {
     }
 }
 
-/// Torques whose constants can be taken to any scalar, for ensembles in lanes.
+/// Torques whose constants can be converted to any scalar, for ensembles in lanes.
 ///
 /// # Examples
 ///
-/// Twigs in winds of many speeds, several in a register:
+/// This example simulates twigs in winds of several speeds, several in one register:
 ///
 #[cfg_attr(feature = "macros", doc = "```")]
 #[cfg_attr(not(feature = "macros"), doc = "```ignore")]
@@ -143,20 +193,20 @@ impl<T: Scalar> Torques<T> for Vec<T> {
 /// # Ok::<(), IntegrationError<f64>>(())
 /// ```
 pub trait LaneTorques<T: Scalar>: Torques<T> {
-    /// These torques on other scalars.
+    /// The type of these torques with constants of the scalar type `S`.
     type Of<S: Scalar>: Torques<S>;
 
-    /// Takes every constant through `convert`, as
+    /// Returns the torques with each constant converted by `convert`, as in
     /// [`Model::cast`](super::Model::cast).
     fn on_scalar<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Self::Of<S>;
 }
 
-/// A pendulum under torques as a first-order system in absolute angles: the state is
-/// the angles followed by the angular velocities.
+/// A pendulum under torques as a first-order system in absolute angles: the state is the angles
+/// followed by the angular velocities.
 ///
 /// # Examples
 ///
-/// A branch in gusts of wind, which drag at the ends of its links:
+/// This branch is in gusts of wind, whose drag acts at the ends of its links:
 ///
 #[cfg_attr(feature = "macros", doc = "```")]
 #[cfg_attr(not(feature = "macros"), doc = "```ignore")]
@@ -185,17 +235,14 @@ pub trait LaneTorques<T: Scalar>: Torques<T> {
 /// assert!(end.state.values[0] > 0.1);
 /// # Ok::<(), IntegrationError<f64>>(())
 /// ```
-pub type UnderTorques<P, F> = SecondOrderOde<Pushed<P, F>>;
+pub type UnderTorques<P, F> = Motion<P, functions::AccelerationsUnderTorques, ByTorques<F>>;
 
-/// A pendulum and the torques on it: [`UnderTorques`].
+/// Torques from outside.
 #[derive(Clone, Copy, Debug)]
-pub struct Pushed<P, F> {
-    pendulum: P,
-    torques: HandedOver<F>,
-}
+pub struct ByTorques<A>(pub(super) Opaque<A>);
 
-impl<P, F> SecondOrderOde<Pushed<P, F>> {
-    /// The pendulum, or a reference to one, under the torques that
+impl<P, F> UnderTorques<P, F> {
+    /// Creates the system of a pendulum (or of a reference to one) under the torques that
     /// `torques(time, theta, omega, out)` writes.
     pub fn new<T>(pendulum: P, torques: F) -> Self
     where
@@ -204,75 +251,53 @@ impl<P, F> SecondOrderOde<Pushed<P, F>> {
         Self::of(pendulum, torques)
     }
 
-    /// The pendulum, or a reference to one, under [`Torques`] of a type of their own, or
-    /// under a vector of those that stay as they are.
+    /// Creates the system of a pendulum (or of a reference to one) under torques of a type that
+    /// implements [`Torques`], such as a vector of constant torques.
     pub fn of(pendulum: P, torques: F) -> Self {
-        SecondOrderOde(Pushed {
-            pendulum,
-            torques: HandedOver(torques),
-        })
-    }
-
-    /// The torques.
-    pub fn torques(&self) -> &F {
-        &self.0.torques.0
-    }
-
-    /// The torques, to change them: a vector between two frames of
-    /// [`Frames`](crate::integrate::Frames), for example.
-    pub fn torques_mut(&mut self) -> &mut F {
-        &mut self.0.torques.0
+        Self::new_of(pendulum, 0, 0, ByTorques(Opaque(torques)))
     }
 }
 
-impl<T: Scalar, P, F> SecondOrder<T> for Pushed<P, F>
-where
-    P: Computes<functions::AccelerationsUnderTorques, T>,
-    F: Torques<T>,
-{
-    fn coordinates(&self) -> usize {
-        self.pendulum.links()
+impl<P, F, A> Motion<P, F, ByTorques<A>> {
+    /// Returns the torques.
+    pub fn torques(&self) -> &A {
+        &self.action.0.0
     }
 
+    /// Returns the torques, so that they can be changed, for example between two frames of
+    /// [`Frames`](crate::integrate::Frames).
+    pub fn torques_mut(&mut self) -> &mut A {
+        &mut self.action.0.0
+    }
+}
+
+impl<P: Computes<Self, T>, T: Scalar> MotionFunction<P, T>
+    for functions::AccelerationsUnderTorques
+{
+    const COORDINATES: Option<usize> = P::KNOWN_LINKS;
+}
+
+impl<T: Scalar, A: Torques<T>> Action<T> for ByTorques<A> {
     #[inline(always)]
-    fn rates(
-        &self,
+    fn rates<F: SliceCounts, M: Computes<F, T>>(
+        motion: &Motion<M, F, Self>,
         workspace: Option<&mut Workspace<T>>,
         time: T,
-        [theta, omega]: [&[T]; 2],
-        [velocities, alpha]: [&mut [T]; 2],
+        [angles, velocities]: [&[T]; 2],
+        [first, second]: [&mut [T]; 2],
     ) {
-        // Torques stand where the velocities will.
-        self.torques.0.torques_into(time, theta, omega, velocities);
-        let given = [theta, omega, velocities];
-        compute_in(
-            &self.pendulum,
-            workspace,
-            At::time(time),
-            &given,
-            &mut [alpha],
-        );
-        velocities.copy_from_slice(omega);
+        let torques = &motion.action.0.0;
+        // The torques use the memory of the velocities until these are written.
+        torques.torques_into(time, angles, velocities, first);
+        motion.accelerate(workspace, time, [angles, velocities], first, second);
+        first.copy_from_slice(velocities);
     }
 }
 
-impl<T: Scalar, P, F> CastSecondOrder<T> for Pushed<P, F>
-where
-    P: Computes<functions::AccelerationsUnderTorques, T>,
-    F: LaneTorques<T>,
-{
-    type On<S: Scalar> = Pushed<P::On<S>, F::Of<S>>;
-
-    const COORDINATES: Option<usize> = P::KNOWN_LINKS;
+impl<T: Scalar, A: LaneTorques<T>> CastAction<T> for ByTorques<A> {
+    type On<S: Scalar> = ByTorques<A::Of<S>>;
 
     fn on<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Self::On<S> {
-        Pushed {
-            pendulum: self.pendulum.on(&convert),
-            torques: HandedOver(self.torques.0.on_scalar(&convert)),
-        }
-    }
-
-    fn shape(&self) -> usize {
-        self.pendulum.shape()
+        ByTorques(Opaque(self.0.0.on_scalar(convert)))
     }
 }

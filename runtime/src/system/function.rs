@@ -1,25 +1,27 @@
-//! Functions of a state of a model: each said once, on any scalar.
+//! Functions of a model's state, each written once for all scalar types.
 
 use super::fused::in_fused_arithmetic;
 use super::{Model, Workspace};
 use crate::scalar::Scalar;
 
-/// When a function is asked for, and of which of several alike.
+/// Time of an evaluation, and the index of the sector or set of links to which the function
+/// applies.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct At<T> {
     /// Time, s.
     pub time: T,
-    /// Number of the sector, or of the set of links; 0 where there is one function.
+    /// Index of the sector, or of the set of prescribed links; 0 if the model has a single such
+    /// function.
     pub index: usize,
 }
 
 impl<T> At<T> {
-    /// The function at a time, where there is one of its kind.
+    /// Creates the argument for a time (s), with index 0.
     pub const fn time(time: T) -> Self {
         Self { time, index: 0 }
     }
 
-    /// The same on other scalars.
+    /// Returns the same argument, with the time converted to another scalar type.
     #[inline(always)]
     pub fn map<S>(self, convert: impl Fn(T) -> S) -> At<S> {
         At {
@@ -29,91 +31,99 @@ impl<T> At<T> {
     }
 }
 
-/// A function of a state: how many slices it takes and writes.
+/// Numbers of argument slices and result slices of a function.
 pub trait SliceCounts {
-    /// Number of slices that it takes.
-    const GIVEN: usize;
+    /// Number of argument slices.
+    const ARGUMENTS: usize;
 
-    /// Number of slices that it writes.
+    /// Number of result slices.
     const RESULTS: usize;
 }
 
 macro_rules! function {
     ($(#[$docs:meta])* $name:ident: $given:literal -> $results:literal) => {
         $(#[$docs])*
-        #[derive(Clone, Copy, Debug)]
+        #[derive(Clone, Copy, Debug, PartialEq)]
         pub struct $name;
 
         impl super::SliceCounts for $name {
-            const GIVEN: usize = $given;
+            const ARGUMENTS: usize = $given;
             const RESULTS: usize = $results;
         }
     };
 }
 
-/// The functions.
+/// Marker types of the functions of a state that models can have.
 pub mod functions {
     function! {
-        /// Angular accelerations (rad/s²) of angles (rad), angular velocities (rad/s) and torques
-        /// from outside (N m) on all links.
+        /// Angular accelerations (rad/s²) from angles (rad), angular velocities (rad/s) and
+        /// external torques (N m) on all links.
         AccelerationsUnderTorques: 3 -> 1
     }
 
     function! {
-        /// Angular accelerations (rad/s²) of all links and reactions (N m) on those of a set, of
-        /// angles, angular velocities and torques on all links and the angular accelerations of
-        /// that set.
+        /// Generalized torques (N m) that cause a motion, from angles (rad), angular velocities
+        /// (rad/s) and angular accelerations (rad/s²) of all links.
+        InverseDynamics: 3 -> 1
+    }
+
+    function! {
+        /// Angular accelerations (rad/s²) of all links and reactions (N m) on a set of prescribed
+        /// links, from angles, angular velocities and torques of all links and the angular
+        /// accelerations of the set.
         AccelerationsOfHeldLinks: 4 -> 2
     }
 
     function! {
-        /// Accelerations of the motion in phase and, behind them, of the differences of a sector,
-        /// of angles, angular velocities, differences and their rates: linear in the differences.
+        /// Accelerations of the in-phase motion, then those of the differences of a sector, from
+        /// angles, angular velocities, differences and their rates. Linear in the differences.
         LinearDifferences: 4 -> 1
     }
 
     function! {
-        /// Accelerations of the angles in phase and, behind them, of small differences that act
-        /// back, of angles, angular velocities, differences and their rates.
+        /// Accelerations of the in-phase angles, then those of small differences that act back on
+        /// them, from angles, angular velocities, differences and their rates.
         SmallDifferences: 4 -> 1
     }
 
     function! {
-        /// The same under torques: on the angles in phase, and on the differences.
+        /// As `SmallDifferences`, with torques as further arguments: on the in-phase angles, and on the
+        /// differences.
         SmallDifferencesUnderTorques: 6 -> 1
     }
 
     function! {
-        /// Second derivatives (rad/s²) of symmetric coordinates (rad), of these and their rates.
+        /// Second derivatives (rad/s²) of symmetric coordinates (rad), from the coordinates and
+        /// their rates.
         SymmetricAccelerations: 2 -> 1
     }
 }
 
-/// A model that has a function `F` of [`functions`]. Emitted code implements it: once, in the
-/// arithmetic of the model's own scalar. All forms of the function are made of that:
-/// one state in fused arithmetic, many in registers ([`Batch`](crate::batch::Batch)), a system
-/// of equations ([`SecondOrderOde`](super::SecondOrderOde)) and its lanes, the same on other scalars.
+/// A model that has a function `F` of [`functions`]. Emitted code implements it once, in the
+/// arithmetic of the model's scalar type. All forms of the function use this implementation: one
+/// state in fused arithmetic, many states in registers ([`Batch`](crate::batch::Batch)), a system
+/// of equations ([`Motion`](super::Motion)), also in lanes, and all of these in other scalar types.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` has no function `{F}` in `{T}`",
-    note = "torques from outside are asked for by `emit(forces)`, held links by `prescribed(LINK)`, linear differences by `in_phase(…)` with `emit(transverse)`, those that act back by `emit(small)`, symmetric coordinates by `emit(symmetric)`"
+    note = "torques from outside are requested by `emit(forces)`, the torques of a given motion by `emit(inverse_dynamics)`, held links by `prescribed(LINK)`, linear differences by `in_phase(…)` with `emit(transverse)`, those that act back by `emit(small)`, symmetric coordinates by `emit(symmetric)`"
 )]
 pub trait Computes<F: SliceCounts, T: Scalar>: Model<T> {
-    /// The model on other scalars, which has the function too.
+    /// The type of the model with constants of the scalar type `S`, which has the function too.
     type On<S: Scalar>: Computes<F, S>;
 
-    /// Takes every constant through `convert`, as [`Model::cast`].
+    /// Returns the model with each constant converted by `convert`, as in [`Model::cast`].
     fn on<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Self::On<S>;
 
-    /// Writes the results, in the arithmetic of `T`; NaN where there are other slices than the
-    /// function takes, or their lengths do not fit.
+    /// Writes the results, in the arithmetic of `T`; NaN if the number of slices or a length is
+    /// wrong.
     ///
-    /// Write `#[inline(always)]`: the caller chooses the instructions that this is
-    /// compiled for.
+    /// Implementations should be `#[inline(always)]`: the caller chooses the instructions for which
+    /// this is compiled.
     fn compute(&self, at: At<T>, given: &[&[T]], results: &mut [&mut [T]]);
 
-    /// Writes the same in memory that the caller keeps, and where the type and the machine can,
-    /// with fused products and sums: [`scalar`](crate::scalar#which-bits). Integrators call
-    /// this one.
+    /// Writes the same results, with a workspace that the caller keeps, and with fused multiply–add
+    /// if the type and the machine support it: [`scalar`](crate::scalar#which-bits). Integrators
+    /// call this function.
     #[inline]
     fn compute_with(
         &self,
@@ -152,7 +162,7 @@ impl<F: SliceCounts, T: Scalar, M: Computes<F, T>> Computes<F, T> for &M {
     }
 }
 
-/// Computes in memory that the caller keeps, or without any in the arithmetic of `T`.
+/// Computes the function with the given workspace or, without one, in the arithmetic of `T`.
 #[inline(always)]
 pub(super) fn compute_in<F: SliceCounts, T: Scalar, M: Computes<F, T>>(
     model: &M,

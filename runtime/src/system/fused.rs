@@ -1,4 +1,4 @@
-//! One state in fused arithmetic, whatever the function.
+//! Evaluation of a function of one state with fused multiply–add.
 
 use core::marker::PhantomData;
 
@@ -9,16 +9,16 @@ use crate::scalar::{Lane, Scalar};
 use crate::simd::dispatch::in_fused_numbers;
 use crate::simd::{Kernel, Simd, one_slice, one_slice_mut};
 
-/// Most links of a model that is written out and computed so: code of larger ones is compiled
-/// in parts.
+/// Largest number of links of an unrolled model for which fused multiply–add is used; the code of
+/// larger models is compiled in parts.
 const MOST_LINKS: usize = 64;
 
-/// Most slices that a function takes, and most that it writes.
-const MOST_GIVEN: usize = 6;
+/// Largest number of slices that a function of a state takes, and largest number that it writes.
+const MOST_ARGUMENTS: usize = 6;
 const MOST_RESULTS: usize = 2;
 
-/// Computes a function in fused arithmetic where the type and the machine have it, else in
-/// that of `T`.
+/// Computes a function with fused multiply–add if the type and the machine support it, otherwise in
+/// the arithmetic of `T`.
 #[inline(always)]
 pub(super) fn in_fused_arithmetic<F: SliceCounts, T: Scalar, M: Computes<F, T>>(
     model: &M,
@@ -26,9 +26,9 @@ pub(super) fn in_fused_arithmetic<F: SliceCounts, T: Scalar, M: Computes<F, T>>(
     given: &[&[T]],
     results: &mut [&mut [T]],
 ) {
-    const { assert!(F::GIVEN <= MOST_GIVEN && F::RESULTS <= MOST_RESULTS) }
+    const { assert!(F::ARGUMENTS <= MOST_ARGUMENTS && F::RESULTS <= MOST_RESULTS) }
     if !const { is_small(known(M::KNOWN_LINKS)) }
-        || [given.len(), results.len()] != [F::GIVEN, F::RESULTS]
+        || [given.len(), results.len()] != [F::ARGUMENTS, F::RESULTS]
     {
         return model.compute(at, given, results);
     }
@@ -36,7 +36,7 @@ pub(super) fn in_fused_arithmetic<F: SliceCounts, T: Scalar, M: Computes<F, T>>(
         function: PhantomData::<F>,
         model,
         at,
-        given: [&[]; MOST_GIVEN],
+        given: [&[]; MOST_ARGUMENTS],
         results: [&mut [], &mut []],
     };
     for (own, slice) in state.given.iter_mut().zip(given) {
@@ -52,13 +52,13 @@ const fn is_small(links: usize) -> bool {
     0 < links && links <= MOST_LINKS
 }
 
-/// A state of a model, and where the results go: as many slices as the function has, none
-/// behind them. By value, so that the code of each instruction set knows how many there are.
+/// Arguments and results of a function of one state: the function's slices, followed by empty ones.
+/// It is passed by value, so that the code for each instruction set knows the number of slices.
 struct OneState<'a, F, M, T> {
     function: PhantomData<F>,
     model: &'a M,
     at: At<T>,
-    given: [&'a [T]; MOST_GIVEN],
+    given: [&'a [T]; MOST_ARGUMENTS],
     results: [&'a mut [T]; MOST_RESULTS],
 }
 
@@ -68,7 +68,7 @@ impl<F: SliceCounts, T: Scalar, M: Computes<F, T>> ByKind<T> for OneState<'_, F,
     #[inline(always)]
     fn of_any(mut self) {
         if let (Some(given), Some(results)) = (
-            self.given.get(..F::GIVEN),
+            self.given.get(..F::ARGUMENTS),
             self.results.get_mut(..F::RESULTS),
         ) {
             self.model.compute(self.at, given, results);
@@ -89,12 +89,13 @@ impl<F: SliceCounts, T: Scalar, M: Computes<F, T>> Kernel<T> for OneState<'_, F,
 
     #[inline(always)]
     fn run<V: Simd<T>>(self) {
-        let given: [&[V]; MOST_GIVEN] =
+        let given: [&[V]; MOST_ARGUMENTS] =
             self.given.map(|slice| one_slice(slice).unwrap_or_default());
         let mut results: [&mut [V]; MOST_RESULTS] = self
             .results
             .map(|slice| one_slice_mut(slice).unwrap_or_default());
-        if let (Some(given), Some(results)) = (given.get(..F::GIVEN), results.get_mut(..F::RESULTS))
+        if let (Some(given), Some(results)) =
+            (given.get(..F::ARGUMENTS), results.get_mut(..F::RESULTS))
         {
             let model = self.model.on(V::splat);
             model.compute(self.at.map(V::splat), given, results);

@@ -1,16 +1,16 @@
-//! Systems that ensembles take into the lanes of vector registers.
+//! Systems that ensembles integrate in the lanes of vector registers.
 
 use super::Ode;
 use crate::scalar::Scalar;
 
-/// A system of equations whose constants can be taken to any scalar: so
-/// [`Ensemble::integrate_in_lanes`](crate::ensemble::Ensemble::integrate_in_lanes)
-/// integrates as many trajectories at a time as a vector register holds.
+/// A system of equations whose constants can be converted to any scalar type.
+/// [`Ensemble::integrate_in_lanes`](crate::ensemble::Ensemble::integrate_in_lanes) integrates as
+/// many trajectories at a time as a vector register has lanes.
 ///
-/// As [`Model::cast`](super::Model::cast) is for models, this is for their systems:
-/// [`AbsoluteAngles`](super::AbsoluteAngles) of a model,
-/// [`UnderTorques`](super::UnderTorques), [`TransverseOde`](super::TransverseOde), or
-/// equations of your own.
+/// The conversion corresponds to [`Model::cast`](super::Model::cast) of models.
+/// [`AbsoluteAngles`](super::AbsoluteAngles) of a model, [`UnderTorques`](super::UnderTorques) and
+/// [`TransverseOde`](super::TransverseOde) implement it, and user-defined equations can implement
+/// it too.
 ///
 /// # Examples
 ///
@@ -54,25 +54,27 @@ use crate::scalar::Scalar;
     note = "a model can in its coordinates, `AbsoluteAngles(&model)`; torques of `UnderTorques` that are `LaneTorques`; equations of your own with `LaneOde`"
 )]
 pub trait LaneOde<T: Scalar>: Ode<T> {
-    /// This system on other scalars.
+    /// The type of the system with constants of the scalar type `S`.
     type Of<S: Scalar>;
 
-    /// Number of components of a state, where the type tells it: code for a known
-    /// number is shorter.
+    /// Number of components of a state, if the type determines it; code for a known number is
+    /// shorter.
     const DIMENSION: Option<usize> = None;
 
-    /// Takes every constant through `convert`, which should change their type and not
-    /// their value, in the same order for all systems of a type.
+    /// Returns the system with each constant converted by `convert`, which must change the type of
+    /// a constant but not its value. The order of the constants must be the same for all systems of
+    /// a type.
     fn on_scalar<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Self::Of<S>;
 
-    /// Writes the rates of a system on other scalars, in their arithmetic.
+    /// Writes the rates of a system with constants of the scalar type `S`, in the arithmetic of
+    /// that type.
     ///
-    /// Write `#[inline(always)]`: the caller chooses the instructions that this is
-    /// compiled for.
+    /// Implementations should be `#[inline(always)]`: the caller chooses the instructions for which
+    /// this is compiled.
     fn rates_of<S: Scalar>(system: &Self::Of<S>, time: S, state: &[S], rates: &mut [S]);
 
-    /// Number by which systems of one type differ that cannot stand in the lanes of
-    /// one, whatever their constants.
+    /// Returns a number that differs between systems of one type that cannot be computed together
+    /// in the lanes of one register. Constants may differ between systems with the same number.
     fn shape(&self) -> usize {
         0
     }

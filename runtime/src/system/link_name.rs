@@ -1,20 +1,20 @@
-//! Names of links that are too many for a list.
+//! Names of links, also in trees that are too large for a list of names.
 
 use core::fmt;
 
-/// The name of a link: as in a list of names, or that of its generation with the
-/// numbers of the copies that it is and hangs in, as in `tree_3_1_2`.
+/// The name of a link, either from a list of names, or composed of the name of its generation and
+/// the indices of the copies on its path from the root, such as `tree_3_1_2`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct LinkName<'a> {
     pub(crate) stem: &'a str,
-    /// Copies of each generation below the root under one link.
+    /// For each generation below the root, the number of copies under each link.
     pub(crate) copies: &'static [usize],
-    /// Index in its generation.
+    /// Index of the link in its generation.
     pub(crate) index: usize,
 }
 
 impl<'a> LinkName<'a> {
-    /// A name from a list.
+    /// Creates a name from one in a list.
     #[must_use]
     pub const fn listed(name: &'a str) -> Self {
         Self {
@@ -24,7 +24,7 @@ impl<'a> LinkName<'a> {
         }
     }
 
-    /// Returns the name at an index of a list, if there is one.
+    /// Returns the name at an index of a list of names; `None` beyond the end of the list.
     #[must_use]
     pub fn in_list(names: &[&'a str], index: usize) -> Option<Self> {
         names.get(index).map(|name| Self::listed(name))

@@ -1,11 +1,10 @@
 //! The traits that emitted code implements, and the systems that integrators
 //! see.
 //!
-//! A description becomes a type that implements [`Pendulum`] (accelerations in
-//! absolute angles), [`Energy`], and, where the tree has identical siblings,
-//! [`SymmetricPendulum`]. Integrators know none of these: they integrate an
-//! [`Ode`], a first-order system. [`AbsoluteAngles`] and
-//! [`SymmetricCoordinates`](type@SymmetricCoordinates) turn one into the other.
+//! A description becomes a type that implements [`Pendulum`] (accelerations in absolute angles),
+//! [`Energy`], and, if the tree has identical siblings, [`SymmetricPendulum`]. Integrators do not
+//! use these traits: they integrate an [`Ode`], a first-order system. [`AbsoluteAngles`] and
+//! [`SymmetricCoordinates`](type@SymmetricCoordinates) convert a pendulum to such a system.
 
 mod by_reference;
 mod canonical;
@@ -20,13 +19,13 @@ mod fused;
 mod lane_ode;
 mod link_name;
 mod model;
+mod motion;
 mod ode;
 mod parametric;
 mod patterns;
 pub(crate) mod pendulum;
 pub(crate) mod positions;
 mod prescribed;
-mod second_order;
 mod small;
 mod state;
 mod taylor;
@@ -36,17 +35,18 @@ mod workspace;
 
 pub use canonical::{Canonical, CanonicalVariables};
 pub use cast_ode::CastOde;
-pub use coordinates::{AbsoluteAngles, Symmetric, SymmetricCoordinates, SymmetricPendulum};
+pub use coordinates::{AbsoluteAngles, SymmetricCoordinates, SymmetricPendulum};
 #[doc(hidden)]
 pub use derivatives::{Slopes, gradient};
 pub use energy::Energy;
 pub use first_integral::{CanonicalEnergy, FirstIntegral, TotalEnergy};
-pub use forced::{Forced, LaneTorques, Pushed, Torques, UnderTorques};
+pub use forced::{ByTorques, Forced, LaneTorques, Torques, UnderTorques};
 pub use function::{At, Computes, SliceCounts, functions};
 pub use lane_ode::LaneOde;
 pub use link_name::LinkName;
 pub use model::Model;
 pub(crate) use model::known;
+pub use motion::{Action, CastAction, Free, Motion, MotionFunction, Opaque};
 pub use ode::{Ode, OdeFn};
 pub use parametric::Parametric;
 pub use patterns::{DifferencePatterns, PatternError};
@@ -55,16 +55,12 @@ pub use pendulum::InRegisters;
 pub use pendulum::Pendulum;
 pub use positions::{LinkPoint, LinkProperties, Positions};
 pub use prescribed::{
-    LaneCourses, LinkCourse, LinkCourses, LinksOnCourse, Prescribed, PrescribedMotion,
-    PrescribedOde,
+    Courses, LaneCourses, LinkCourse, LinkCourses, Prescribed, PrescribedMotion, PrescribedOde,
 };
-pub use second_order::{CastSecondOrder, HandedOver, SecondOrder, SecondOrderOde};
-pub use small::{
-    ForcedDifferences, Nearly, NearlyPushed, SmallDifferences, SmallOde, SmallUnderTorques,
-};
+pub use small::{ForcedDifferences, SmallDifferences, SmallOde, SmallUnderTorques};
 pub use state::{LengthMismatch, State};
 pub use taylor::{RatesOnly, TaylorOde, TaylorPendulum};
-pub use transverse::{Beside, InPhaseMotion, Transverse, TransverseOde, TransverseSector};
+pub use transverse::{InPhaseMotion, Transverse, TransverseOde, TransverseSector};
 pub use whole_tree::{WholeLengthError, WholeTree};
 #[doc(hidden)]
 pub use whole_tree::{WholeMotion, WholeOrbit};

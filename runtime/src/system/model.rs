@@ -1,4 +1,4 @@
-//! Trees of links, whatever is asked of them.
+//! Trait that every model of a tree of links implements.
 
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
@@ -6,12 +6,13 @@ use alloc::vec::Vec;
 use super::{LinkName, Pendulum};
 use crate::scalar::Scalar;
 
-/// A tree of links whose constants are numbers `T`: a model that is written by the attribute,
-/// a tree that is read while a program runs, or one written by hand.
+/// A tree of links whose constants are numbers `T`: a model written by the attribute, a tree read
+/// at run time, or a model written by hand.
 ///
 /// # Examples
 ///
-/// A rod, written by hand. All that it says of its motion is [`Pendulum::evaluate`]:
+/// This model of a rod is written by hand. Its only equation of motion is in
+/// [`Pendulum::evaluate`]:
 ///
 /// ```
 /// use branched_pendulum::prelude::*;
@@ -62,20 +63,20 @@ use crate::scalar::Scalar;
 /// # Ok::<(), branched_pendulum::batch::BatchError>(())
 /// ```
 #[diagnostic::on_unimplemented(
-    message = "`{Self}` is no model in `{T}`",
+    message = "`{Self}` is not a model in `{T}`",
     note = "a model of the attribute is one in its own numbers: the model itself or `&model`, not one in coordinates like `AbsoluteAngles(&model)`, which is a `CastOde`"
 )]
 pub trait Model<T: Scalar>: Sized {
-    /// This model on other scalars.
+    /// The type of this model with constants of the scalar type `S`.
     type Of<S: Scalar>: Pendulum<S>;
 
-    /// Number of links, where the type tells it: code for a known number is shorter.
+    /// Number of links, if the type determines it; code for a known number of links is shorter.
     const KNOWN_LINKS: Option<usize>;
 
     /// Returns the number of links, each with one angle.
     fn links(&self) -> usize;
 
-    /// Returns the name of the link with that index, if there is one.
+    /// Returns the name of the link with that index; `None` if there is no such link.
     #[must_use]
     fn link_name(&self, index: usize) -> Option<LinkName<'_>>;
 
@@ -86,17 +87,18 @@ pub trait Model<T: Scalar>: Sized {
         names.map(|name| name.to_string()).collect()
     }
 
-    /// Takes every constant through `convert`, which should change their type
-    /// and not their value.
+    /// Returns the model with each constant converted by `convert`, which must change the type of a
+    /// constant but not its value.
     ///
-    /// All models of a type and a [`shape`](Self::shape) must convert as many constants in the
-    /// same order, and differ in nothing else: this is how
+    /// All models of one type and one [`shape`](Self::shape) must convert the same number of
+    /// constants in the same order, and differ in nothing else:
     /// [`Ensemble::integrate_models_in_lanes`](crate::ensemble::Ensemble::integrate_models_in_lanes)
-    /// puts several models into the lanes of one.
+    /// relies on it to put several models into the lanes of one.
     fn cast<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Self::Of<S>;
 
-    /// Returns a number by which models of one type differ that cannot stand in the lanes of
-    /// one, whatever their constants.
+    /// Returns a number that differs between models of one type that cannot be computed together in
+    /// the lanes of one register, as trees of different topology. Constants may differ between
+    /// models with the same number.
     fn shape(&self) -> usize {
         0
     }
@@ -126,8 +128,8 @@ impl<T: Scalar, M: Model<T>> Model<T> for &M {
     }
 }
 
-/// Returns the number of links that a type tells, 0 where it tells none. Choices by it are ones of
-/// the compiler: what is not chosen is not compiled.
+/// Returns the number of links that a type determines, or 0 if it does not. It is a constant, so
+/// that the compiler drops the code of branches that are not taken.
 pub(crate) const fn known(links: Option<usize>) -> usize {
     match links {
         Some(links) => links,
@@ -135,7 +137,7 @@ pub(crate) const fn known(links: Option<usize>) -> usize {
     }
 }
 
-/// Returns twice a number that may be known.
+/// Returns twice the number of links; `None` if it is unknown.
 pub(super) const fn twice(links: Option<usize>) -> Option<usize> {
     match links {
         Some(links) => Some(2 * links),

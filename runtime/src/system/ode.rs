@@ -1,4 +1,4 @@
-//! Systems of first-order equations, which integrators see.
+//! Systems of first-order equations, in the form that integrators use.
 
 use core::fmt;
 
@@ -8,25 +8,24 @@ use crate::scalar::Scalar;
 
 /// A system of first-order ordinary differential equations y' = f(t, y).
 #[diagnostic::on_unimplemented(
-    message = "`{Self}` is no system of first-order equations in `{T}`",
+    message = "`{Self}` is not a system of first-order equations in `{T}`",
     label = "not an `Ode<{T}>`",
     note = "choose the coordinates of a model: `AbsoluteAngles(&model)`, with `emit(symmetric)` `SymmetricCoordinates(&model)`, with `emit(momenta)` `CanonicalVariables(&model)`",
     note = "equations of your own: implement `Ode`, or `OdeFn::new(dimension, |time, state, rates| …)`"
 )]
 pub trait Ode<T> {
-    /// Number of components of the state.
+    /// Returns the number of components of the state.
     fn dimension(&self) -> usize;
 
-    /// Writes f(t, y) to `rates`. Both slices have length
+    /// Writes f(t, y) to `rates`, where y is `state` and t is `time`. Both slices have length
     /// [`dimension`](Self::dimension).
     ///
-    /// Where f is not defined, write NaN: integrators stop there at once, with
-    /// the time and the state.
+    /// Writes NaN where f is undefined: integrators stop there at once and report the time and the
+    /// state.
     fn rates(&self, time: T, state: &[T], rates: &mut [T]);
 
-    /// Writes the same rates as [`rates`](Self::rates), in memory that the caller
-    /// keeps. Integrators call this one. Systems that need no memory leave it as it
-    /// is.
+    /// Writes the same rates as [`rates`](Self::rates), using memory that the caller keeps.
+    /// Integrators call this function. Systems that need no memory keep the default.
     #[inline]
     fn rates_with(&self, workspace: &mut Workspace<T>, time: T, state: &[T], rates: &mut [T]) {
         let _ = workspace;
@@ -44,11 +43,11 @@ by_reference! {
     }
 }
 
-/// Halves of a state, and of its rates.
+/// The two halves of a state, and the two halves of its rates of change.
 pub(crate) type StateHalves<'s, 'r, T> = ([&'s [T]; 2], [&'r mut [T]; 2]);
 
-/// Splits a state and its rates in halves of so many numbers. None, and rates that are NaN,
-/// where lengths do not fit: there is no answer.
+/// Splits a state and its rates into two halves of `half` components each. If a length is not 2 ·
+/// `half`, returns `None` and fills the rates with NaN.
 #[inline(always)]
 pub(crate) fn halves<'s, 'r, T: Scalar>(
     half: usize,
@@ -62,7 +61,7 @@ pub(crate) fn halves<'s, 'r, T: Scalar>(
     Some((state.split_at(half).into(), rates.split_at_mut(half).into()))
 }
 
-/// A function as an [`Ode`].
+/// System of first-order equations whose right-hand side is a function of the caller.
 ///
 /// # Examples
 ///
@@ -84,8 +83,8 @@ pub struct OdeFn<F> {
 }
 
 impl<F> OdeFn<F> {
-    /// The system of `dimension` equations whose rates `function(time, state,
-    /// rates)` writes.
+    /// Returns the system of `dimension` equations whose rates are written by `function(time,
+    /// state, rates)`.
     pub fn new<T>(dimension: usize, function: F) -> Self
     where
         F: Fn(T, &[T], &mut [T]),

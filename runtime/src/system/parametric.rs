@@ -1,11 +1,11 @@
-//! Models by the names of their parameters.
+//! Models with named parameters.
 
 use super::Model;
 use crate::model::ParameterError;
 use crate::scalar::Scalar;
 
-/// A pendulum with named parameters. Emitted code implements it where a description has
-/// some; `branched_pendulum_measure::identification` fits them to measurements.
+/// A pendulum with named parameters. Emitted code implements this trait if a description has
+/// parameters; `branched_pendulum_measure::identification` fits these parameters to measurements.
 ///
 /// # Examples
 ///
@@ -30,17 +30,17 @@ use crate::scalar::Scalar;
     note = "write a name in place of a number in its attribute: `mass = bob_mass`"
 )]
 pub trait Parametric<T: Scalar>: Model<T> {
-    /// Names of the parameters, in their order.
+    /// Names of the parameters, in the order of their indices.
     const PARAMETERS: &'static [&'static str];
 
-    /// Makes the model for which parameter `index` is `values(index)`, taken as it is: in
-    /// any scalar, with derivatives or without.
+    /// Creates the model in which the parameter with each `index` has the value `values(index)`,
+    /// without checks. Works in any scalar type, with or without derivatives.
     fn with_parameters<S: Scalar>(values: impl Fn(usize) -> S) -> Self::Of<S>;
 
-    /// Refuses what the model's constructor refuses.
+    /// Checks parameters like the constructor of the model.
     ///
     /// # Errors
     ///
-    /// A parameter that no pendulum can have.
+    /// [`ParameterError`] for a value that the constructor rejects.
     fn check_parameters(values: impl Fn(usize) -> f64) -> Result<(), ParameterError>;
 }

@@ -1,4 +1,4 @@
-//! Differences of a whole tree, as a model of copies in phase counts them.
+//! Patterns in which the copies of the whole tree differ, for models whose copies move in phase.
 
 use alloc::vec;
 use alloc::vec::Vec;
@@ -7,12 +7,13 @@ use super::{SmallDifferences, TransverseSector, WholeTree};
 use crate::errors::errors;
 use crate::scalar::{Real, Scalar};
 
-/// The differences of a [`SmallDifferences`] model in the whole tree: which copy has which
-/// weight e in θ + e δ.
+/// Weights e with which the differences δ of a [`SmallDifferences`] model enter the angles θ + e δ
+/// of the copies in the whole tree.
 ///
-/// Two copies have the weights ±1 where one link holds such copies, and where several
-/// do and move alike ±1/√holders, the same under each. More copies, and holders that
-/// do not do the same, take [`chosen`](Self::chosen).
+/// A *holder* is a link under which such copies hang. Two copies have the weights ±1 if there is
+/// one holder, and ±1/√holders, the same under each, if several holders move in phase. Other
+/// patterns, for more than two copies or for holders that differ, are given to
+/// [`chosen`](Self::chosen).
 ///
 /// ```
 /// # #[cfg(feature = "macros")] {
@@ -37,50 +38,51 @@ use crate::scalar::{Real, Scalar};
 #[derive(Clone, Debug, PartialEq)]
 pub struct DifferencePatterns {
     links: usize,
-    /// Link of the model as which each link of the whole tree moves, and its angle to it.
+    /// For each link of the whole tree: the index of the model's link whose angle it follows, and
+    /// the constant angle (rad) between the two.
     places: Vec<(usize, f64)>,
-    /// One over the number of links of the whole tree that move as each link.
+    /// For each link of the model, 1 over the number of links of the whole tree that follow it.
     shares: Vec<f64>,
-    patterns: Vec<Pattern>,
+    patterns: Vec<CopyWeights>,
 }
 
-/// The differences of one sector.
+/// Weights of the copies in one sector's differences.
 #[derive(Clone, Debug, PartialEq)]
-struct Pattern {
+struct CopyWeights {
     sector: TransverseSector,
-    /// Weight of each link of the whole tree, none without one.
+    /// Weight of each link of the whole tree; zero for links that are not part of the sector.
     weights: Vec<f64>,
 }
 
 errors! {
-    /// Reason for which weights are no pattern of differences.
+    /// Reason why weights do not form a pattern of differences.
     #[derive(Clone, Copy, Debug, PartialEq)]
     #[non_exhaustive]
     pub enum PatternError {
-        /// A sector that does not act back.
-        Sector => "no sector of that name acts back",
-        /// Another number of weights than the whole tree has such copies.
+        /// The model has no sector of that name whose differences act back on the motion.
+        Sector => "no sector with this name acts back on the in-phase motion",
+        /// The number of weights is not the number of copies of the sector in the whole tree.
         Length {
-            /// Number of copies under all holders.
+            /// Number of copies under all holders together.
             expected: usize,
-            /// Number of weights.
+            /// Number of weights given.
             found: usize,
-        } => "{found} weights for {expected} copies",
-        /// Weights that are all zero, not finite, or do not add up to zero under a holder.
-        Weights => "weights have to be finite, not all zero, and to add up to zero under each \
-            holder",
-        /// Copies of which there are more than two, so that weights have to be chosen.
+        } => "got {found} weights for {expected} copies: the numbers must be equal",
+        /// The weights are all zero, not finite, or do not add up to zero under each holder.
+        Weights => "weights must be finite, not all zero, and their sum under each parent link \
+            must be zero",
+        /// There are more than two copies, so that the caller must choose weights.
         Choice {
             /// Name of the sector.
             sector: &'static str,
-        } => "`{sector}` has more than two copies: choose their weights by `chosen`",
+        } => "sector `{sector}` has more than two copies: choose their weights by `chosen`",
     }
 }
 
 impl core::error::Error for PatternError {}
 
 impl DifferencePatterns {
-    /// The patterns of pairs, of a model and the whole tree behind it.
+    /// Returns the patterns of a model whose sectors all have two copies, for its whole tree.
     ///
     /// # Errors
     ///
@@ -92,14 +94,14 @@ impl DifferencePatterns {
         Self::chosen(model, tree, &[])
     }
 
-    /// The patterns with these weights of copies of some sectors, by their names, in the
-    /// order in which the whole tree has the copies: under the first holder, under the
-    /// next. Patterns are made so large that their squares add up to the number of copies
-    /// under one holder.
+    /// Creates patterns with the given weights. Each entry is the name of a sector with the weights
+    /// of its copies in the order of the whole tree: the copies under the first holder (the link
+    /// that carries them), then those under the next. The weights are scaled so that their squares
+    /// add up to the number of copies under one holder.
     ///
     /// # Errors
     ///
-    /// [`PatternError`] for weights that are none, and for more than two copies without
+    /// [`PatternError`] for invalid weights, and for a sector of more than two copies without
     /// weights.
     pub fn chosen<T: Scalar, P: SmallDifferences<T>>(
         model: &P,
@@ -137,17 +139,18 @@ impl DifferencePatterns {
                 if !(sector.first..sector.first + sector.links).contains(&link) {
                     return 0.0;
                 }
-                // Copies stand one after the other, each with as many links of a kind.
+                // Copies follow each other, each with the same number of links of a kind.
                 let copy = met[link] * copies.len() / counts[link];
                 met[link] += 1;
                 copies[copy]
             };
-            Ok(Pattern {
+            Ok(CopyWeights {
                 sector,
                 weights: places.iter().map(weight).collect(),
             })
         };
-        let patterns: Result<Vec<Pattern>, PatternError> = sectors.iter().map(pattern).collect();
+        let patterns: Result<Vec<CopyWeights>, PatternError> =
+            sectors.iter().map(pattern).collect();
         Ok(Self {
             links,
             patterns: patterns?,
@@ -156,9 +159,9 @@ impl DifferencePatterns {
         })
     }
 
-    /// Returns the state of the model, angles and differences and their rates, of a state
-    /// of the whole tree, angles and their rates: means, and what of the differences
-    /// follows the patterns. Empty for one of another length.
+    /// Returns the state of the model (angles, differences, then their rates) for a state of the
+    /// whole tree (angles, then their rates). The model's angles are means over the copies, and its
+    /// differences are projections on the patterns. Empty if the state has a wrong length.
     #[must_use]
     pub fn to_small<T: Scalar>(&self, whole: &[T]) -> Vec<T> {
         let mut small = vec![T::from_f64(0.0); 2 * self.half()];
@@ -168,8 +171,8 @@ impl DifferencePatterns {
         }
     }
 
-    /// Returns the state of the whole tree of a state of the model. Empty for one of
-    /// another length.
+    /// Converts a state of the model to a state of the whole tree. Empty if the state has a wrong
+    /// length.
     #[must_use]
     pub fn to_whole<T: Scalar>(&self, small: &[T]) -> Vec<T> {
         let mut whole = vec![T::from_f64(0.0); 2 * self.places.len()];
@@ -179,9 +182,9 @@ impl DifferencePatterns {
         }
     }
 
-    /// Returns the generalized torques on the model of torques on the links of the whole
-    /// tree, for the same work: their sums for the angles in phase and, behind them, the
-    /// sums with the weights of the copies for the differences. Empty for another number.
+    /// Returns the generalized torques (N m) on the model that do the same work as the torques on
+    /// the links of the whole tree: for each in-phase angle their sum, then for each difference
+    /// their sum weighted by the pattern. Empty if the number of torques is wrong.
     #[must_use]
     pub fn torques<T: Scalar>(&self, whole: &[T]) -> Vec<T> {
         let mut torques = vec![T::from_f64(0.0); self.half()];
@@ -191,7 +194,8 @@ impl DifferencePatterns {
         }
     }
 
-    /// Writes generalized torques on the model; nothing for another length, which is told.
+    /// Converts torques (N m) on the whole tree to generalized torques on the model. If a length is
+    /// wrong, it writes nothing and returns false.
     pub(crate) fn torques_into<T: Scalar>(&self, whole: &[T], torques: &mut [T]) -> bool {
         if whole.len() != self.places.len() || torques.len() != self.half() {
             return false;
@@ -200,7 +204,7 @@ impl DifferencePatterns {
         for (index, (&(link, _), &torque)) in self.places.iter().zip(whole).enumerate() {
             torques[link] = torques[link] + torque;
             let mut offset = self.links;
-            for Pattern { sector, weights } in &self.patterns {
+            for CopyWeights { sector, weights } in &self.patterns {
                 if weights[index] != 0.0 {
                     let place = offset + link - sector.first;
                     torques[place] = torques[place] + torque * T::from_f64(weights[index]);
@@ -211,9 +215,9 @@ impl DifferencePatterns {
         true
     }
 
-    /// Returns true if the model takes all of the torques on the whole tree's links: they
-    /// differ between copies as the patterns do, but for rounding. `parts` is memory for
-    /// [`half`](Self::half) numbers.
+    /// Returns true if the torques on the whole tree's links can be represented in the model: up to
+    /// rounding, they differ between copies only in proportion to the patterns. `parts` is a buffer
+    /// of [`half`](Self::half) numbers.
     pub(crate) fn take_torques<T: Real>(&self, whole: &[T], parts: &mut [T]) -> bool {
         if whole.len() != self.places.len() || parts.len() != self.half() {
             return false;
@@ -226,13 +230,14 @@ impl DifferencePatterns {
         links().all(|(link, &torque)| (torque - self.of_link(link, parts)).abs() <= rounding)
     }
 
-    /// Number of angles and differences.
+    /// Returns the number of the model's coordinates: angles and differences.
     pub(crate) fn half(&self) -> usize {
         let differences = self.patterns.iter().map(|pattern| pattern.sector.links);
         self.links + differences.sum::<usize>()
     }
 
-    /// Writes a state of the model; nothing for another length, which is told.
+    /// Converts a state of the whole tree to a state of the model. If a length is wrong, it writes
+    /// nothing and returns false.
     pub(crate) fn small_into<T: Scalar>(&self, whole: &[T], small: &mut [T]) -> bool {
         let (links, half) = (self.places.len(), self.half());
         if whole.len() != 2 * links || small.len() != 2 * half {
@@ -249,16 +254,16 @@ impl DifferencePatterns {
         true
     }
 
-    /// Adds up means and differences of the values of the whole tree's links.
+    /// Adds the means and the differences of the values of the whole tree's links to `sums`.
     fn project<T: Scalar>(&self, value: impl Fn(usize, f64) -> T, sums: &mut [T]) {
         for (whole, &(link, angle)) in self.places.iter().enumerate() {
             let value = value(whole, angle);
             sums[link] = sums[link] + value * T::from_f64(self.shares[link]);
             let mut offset = self.links;
-            for Pattern { sector, weights } in &self.patterns {
+            for CopyWeights { sector, weights } in &self.patterns {
                 if weights[whole] != 0.0 {
                     let place = offset + link - sector.first;
-                    // Squares of weights have the mean 1/holders.
+                    // The squared weights have the mean 1/holders.
                     let share = weights[whole] * sector.holders as f64 * self.shares[link];
                     sums[place] = sums[place] + value * T::from_f64(share);
                 }
@@ -267,7 +272,8 @@ impl DifferencePatterns {
         }
     }
 
-    /// Writes a state of the whole tree; nothing for another length, which is told.
+    /// Converts a state of the model to a state of the whole tree. If a length is wrong, it writes
+    /// nothing and returns false.
     pub(crate) fn whole_into<T: Scalar>(&self, small: &[T], whole: &mut [T]) -> bool {
         let (links, half) = (self.places.len(), self.half());
         if whole.len() != 2 * links || small.len() != 2 * half {
@@ -286,11 +292,12 @@ impl DifferencePatterns {
         true
     }
 
-    /// Returns the value of one link of the whole tree: θ + Σ e δ.
+    /// Returns the value θ + Σ e δ of one link of the whole tree, from the model's values θ and δ
+    /// and the weights e.
     pub(crate) fn of_link<T: Scalar>(&self, whole: usize, small: &[T]) -> T {
         let (link, _) = self.places[whole];
         let (mut value, mut offset) = (small[link], self.links);
-        for Pattern { sector, weights } in &self.patterns {
+        for CopyWeights { sector, weights } in &self.patterns {
             if weights[whole] != 0.0 {
                 let difference = small[offset + link - sector.first];
                 value = value + difference * T::from_f64(weights[whole]);
@@ -300,16 +307,17 @@ impl DifferencePatterns {
         value
     }
 
-    /// Angle of a link of the whole tree to the link of the model as which it moves.
+    /// Returns the constant angle (rad) between a link of the whole tree and the model's link that
+    /// it follows.
     pub(crate) fn angle(&self, whole: usize) -> f64 {
         self.places[whole].1
     }
 
-    /// By how much the squares of a sector's weights differ between copies, rms relative
-    /// to their mean: zero where pairs do the same under all holders. What they differ by
-    /// drives other differences at second order.
+    /// Returns the standard deviation of the squared weights of a sector's copies, relative to
+    /// their mean: zero for pairs with the same weights under all holders. If it is not zero, the
+    /// differences also drive other differences, at second order.
     pub(crate) fn unevenness(&self, sector: usize) -> f64 {
-        let Pattern { sector, weights } = &self.patterns[sector];
+        let CopyWeights { sector, weights } = &self.patterns[sector];
         let of_copies = self.places.iter().zip(weights);
         let squares = of_copies
             .filter(|((link, _), _)| *link == sector.first)
@@ -320,8 +328,8 @@ impl DifferencePatterns {
     }
 }
 
-/// Checks weights of a sector's copies, and makes their squares add up to the number of
-/// copies under one holder.
+/// Checks the weights of a sector's copies, and scales them so that their squares add up to the
+/// number of copies under one holder.
 fn normalised(sector: &TransverseSector, mut weights: Vec<f64>) -> Result<Vec<f64>, PatternError> {
     let expected = sector.copies * sector.holders;
     if weights.len() != expected {

@@ -1,4 +1,4 @@
-//! Equations of motion in absolute angles: one body of equations, on any scalar.
+//! Equations of motion in absolute angles, in a form that every scalar type can use.
 
 use core::marker::PhantomData;
 
@@ -10,22 +10,21 @@ use crate::simd::{Simd, StateKernel};
 
 /// Equations of motion in absolute angles.
 ///
-/// Angles are measured from the downward vertical (from the upward one where gravity is
-/// written as negative), in radians; links stand in parent-before-child order.
+/// Angles are measured from the downward vertical (from the upward one if the description's gravity
+/// is negative), in radians; parents come before their children in the order of links.
 ///
-/// A model says them once, as [`evaluate`](Self::evaluate) on its own scalars. The other
-/// functions are forms of that one.
+/// A model implements them in [`evaluate`](Self::evaluate), which the other functions call.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` has no equations of motion in `{T}`",
     note = "a model has them in its own numbers: `model.cast(…)` takes it to others, `linearised(AbsoluteAngles(&model))` to those of variational equations"
 )]
 pub trait Pendulum<T: Scalar>: Model<T> {
-    /// The angular accelerations (rad/s²) at `time` (s), in the arithmetic of
-    /// `T`: reads the angle (rad) and the angular velocity (rad/s) of link `i`
-    /// as `theta(i)` and `omega(i)`, gives the results as `alpha(i, value)`.
+    /// Computes the angular accelerations (rad/s²) at `time` (s), in the arithmetic of `T`. It
+    /// reads the angle (rad) and the angular velocity (rad/s) of link `i` as `theta(i)` and
+    /// `omega(i)`, and returns each result by calling `alpha(i, value)`.
     ///
-    /// Write `#[inline(always)]`: the caller chooses the instructions that this
-    /// is compiled for.
+    /// Implementations should be `#[inline(always)]`: the caller chooses the instructions for which
+    /// this is compiled.
     fn evaluate(
         &self,
         time: T,
@@ -34,11 +33,11 @@ pub trait Pendulum<T: Scalar>: Model<T> {
         alpha: impl FnMut(usize, T),
     );
 
-    /// Writes the angular accelerations, in rad/s², of a pendulum with angles
-    /// `theta` (rad) and angular velocities `omega` (rad/s) at `time` (s).
+    /// Writes the angular accelerations (rad/s²) of a pendulum with angles `theta` (rad) and
+    /// angular velocities `omega` (rad/s) at `time` (s).
     ///
-    /// Models in `f64` and `f32` fuse products with sums where the machine
-    /// can: [`scalar`](crate::scalar#which-bits).
+    /// Models in `f64` and `f32` use fused multiply–add if the machine has it:
+    /// [`scalar`](crate::scalar#which-bits).
     ///
     /// All three slices have one number for each [link](Model::links). For other lengths the
     /// results are NaN.
@@ -51,9 +50,9 @@ pub trait Pendulum<T: Scalar>: Model<T> {
         }
     }
 
-    /// Writes the same accelerations as
-    /// [`accelerations_into`](Self::accelerations_into), in memory that the caller
-    /// keeps: for trees in loops, which would allocate it for every evaluation.
+    /// Writes the same accelerations as [`accelerations_into`](Self::accelerations_into), with a
+    /// workspace that the caller keeps. Large trees, whose code loops over the links, would
+    /// otherwise allocate it in every evaluation.
     #[inline]
     fn accelerations_with(
         &self,
@@ -67,20 +66,19 @@ pub trait Pendulum<T: Scalar>: Model<T> {
         self.accelerations_into(time, theta, omega, alpha);
     }
 
-    /// Number of values that [`in_registers`](Self::in_registers) needs room
-    /// for.
+    /// Returns the length of the buffer that [`in_registers`](Self::in_registers) needs.
     #[doc(hidden)]
-    fn room(&self) -> usize {
+    fn workspace_len(&self) -> usize {
         0
     }
 
-    /// The form in which a [`Batch`](crate::batch::Batch) computes at `time`:
-    /// this pendulum in registers, or where that would be large, something that
-    /// takes its numbers as they are needed.
+    /// Prepares this pendulum for evaluation by a [`Batch`](crate::batch::Batch) at `time` (s): its
+    /// constants are converted to registers or, if there are many, loaded as needed. `room` is a
+    /// buffer for them.
     #[doc(hidden)]
     #[inline(always)]
-    fn in_registers<R: Simd<T>>(&self, time: T, room: &mut [T]) -> impl InRegisters<R> {
-        let _ = room;
+    fn in_registers<R: Simd<T>>(&self, time: T, buffer: &mut [T]) -> impl InRegisters<R> {
+        let _ = buffer;
         CastPendulum {
             pendulum: self.cast(R::splat),
             time: R::splat(time),
@@ -117,20 +115,20 @@ impl<T: Scalar, P: Pendulum<T>> Pendulum<T> for &P {
         (**self).accelerations_with(workspace, time, theta, omega, alpha);
     }
 
-    fn room(&self) -> usize {
-        (**self).room()
+    fn workspace_len(&self) -> usize {
+        (**self).workspace_len()
     }
 
     #[inline(always)]
-    fn in_registers<R: Simd<T>>(&self, time: T, room: &mut [T]) -> impl InRegisters<R> {
-        (**self).in_registers(time, room)
+    fn in_registers<R: Simd<T>>(&self, time: T, buffer: &mut [T]) -> impl InRegisters<R> {
+        (**self).in_registers(time, buffer)
     }
 }
 
-/// A pendulum in registers, at one time.
+/// Pendulum prepared for evaluation in vector registers, at one time.
 #[doc(hidden)]
 pub trait InRegisters<R> {
-    /// Evaluates as [`Pendulum::evaluate`] does.
+    /// Computes the angular accelerations like [`Pendulum::evaluate`].
     fn evaluate(
         &mut self,
         theta: impl Fn(usize) -> R,
@@ -139,7 +137,7 @@ pub trait InRegisters<R> {
     );
 }
 
-/// A pendulum whose constants are registers.
+/// Pendulum whose constants have been converted to vector registers.
 struct CastPendulum<P, R> {
     pendulum: P,
     time: R,
@@ -157,8 +155,8 @@ impl<R: Scalar, P: Pendulum<R>> InRegisters<R> for CastPendulum<P, R> {
     }
 }
 
-/// Writes the element at an index; nothing beyond the end, as [`at`] reads NaN
-/// there.
+/// Writes an element at an index; does nothing if the index is beyond the end ([`at`] returns NaN
+/// there).
 #[inline(always)]
 pub(crate) fn put<T>(numbers: &mut [T], index: usize, value: T) {
     if let Some(number) = numbers.get_mut(index) {
@@ -166,8 +164,8 @@ pub(crate) fn put<T>(numbers: &mut [T], index: usize, value: T) {
     }
 }
 
-/// Returns true if all slices have one number a link; fills `alpha` with NaN if
-/// not.
+/// Returns true if all slices have one number per link; otherwise fills `alpha` with NaN and
+/// returns false.
 #[inline(always)]
 fn fit<T: Scalar>(links: usize, theta: &[T], omega: &[T], alpha: &mut [T]) -> bool {
     let fit = theta.len() == links && omega.len() == links && alpha.len() == links;
@@ -177,8 +175,8 @@ fn fit<T: Scalar>(links: usize, theta: &[T], omega: &[T], alpha: &mut [T]) -> bo
     fit
 }
 
-/// Writes accelerations in the arithmetic of `T`. Long ones are compiled once, not in
-/// every place that falls back to them.
+/// Writes accelerations in the arithmetic of `T`, without fused multiply–add. As a separate
+/// function, long code is compiled once instead of at each caller.
 #[inline]
 pub(crate) fn unfused<T: Scalar, P: Pendulum<T>>(
     pendulum: &P,
@@ -197,8 +195,9 @@ pub(crate) fn unfused<T: Scalar, P: Pendulum<T>>(
     }
 }
 
-/// The accelerations of one state of a model whose type tells the number of links, its slices
-/// as long. Of no links where it does not: then no state fits.
+/// Computation of one state's accelerations by a model whose type determines the number of links,
+/// for slices of that length. If the type does not determine it, the number of links counts as
+/// zero, and no state has a matching length.
 struct OneStateOf<P>(PhantomData<P>);
 
 impl<T: Scalar, P: Pendulum<T>> StateKernel<T> for OneStateOf<P> {
@@ -208,7 +207,7 @@ impl<T: Scalar, P: Pendulum<T>> StateKernel<T> for OneStateOf<P> {
 
     #[inline(always)]
     fn run<V: Simd<T>>(pendulum: &P, time: T, theta: &[T], omega: &[T], alpha: &mut [T]) {
-        // Known already, and known again to the compiler of this function.
+        // Checks the lengths again, so that the compiler of this function knows them.
         if !fit(pendulum.links(), theta, omega, alpha) {
             return;
         }

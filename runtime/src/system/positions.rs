@@ -1,4 +1,4 @@
-//! Where links are.
+//! Positions and velocities of points of links, and torques of forces that act there.
 
 use alloc::vec;
 use alloc::vec::Vec;
@@ -8,54 +8,54 @@ use super::by_reference::by_reference;
 use crate::model::Transfer;
 use crate::scalar::Scalar;
 
-/// A point that every link has.
+/// A point that every link has: pivot, centre of mass or end.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LinkPoint {
-    /// The pivot by which it hangs from its parent.
+    /// The pivot at which the link is attached to its parent.
     Pivot,
     /// The centre of mass.
     Centre,
-    /// The end: the `joint` of its description, or the one that its shape has; the
-    /// centre of mass of a link that has none.
+    /// The end of the link: the `joint` of its description, or the end of its shape; for a link
+    /// with neither, the centre of mass.
     End,
 }
 
 impl LinkPoint {
-    /// All of them.
+    /// All points.
     pub const ALL: [Self; 3] = [Self::Pivot, Self::Centre, Self::End];
 }
 
-/// A link as data. SI units; places are along the link and across it: at angle 0
-/// downwards (upwards in a tree that [stands](Positions::stands)), and to the side to which
-/// positive angles move the link's end.
+/// Mass, inertia and points of a link, in SI units. Vectors are [along, across] the link: at angle
+/// 0, along is downwards (upwards in a tree that [stands](Positions::stands)), and across is to the
+/// side to which positive angles move the link's end.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LinkProperties<T> {
-    /// Index of the link that it hangs from; none of the root.
+    /// Index of the parent link; `None` for the root.
     pub parent: Option<usize>,
-    /// Mass.
+    /// Mass, kg.
     pub mass: T,
-    /// Moment of inertia about the centre of mass.
+    /// Moment of inertia about the centre of mass, kg m².
     pub inertia: T,
-    /// Centre of mass, from the link's pivot.
+    /// Centre of mass relative to the link's pivot, m.
     pub centre: [T; 2],
-    /// The link's pivot on its parent, from the parent's pivot.
+    /// Pivot by which the link hangs on its parent, relative to the parent's pivot, in m.
     pub pivot: [T; 2],
-    /// End, from the link's pivot.
+    /// End relative to the link's pivot, m.
     pub end: [T; 2],
 }
 
-/// Numbers in a row of properties.
+/// Number of values in a row of link properties.
 pub(crate) const COLUMNS: usize = 8;
 
 impl<T: Scalar> LinkProperties<T> {
-    /// Distance of the end from the pivot.
+    /// Returns the distance (m) from the link's pivot to its end.
     #[must_use]
     pub fn length(&self) -> T {
         let [along, across] = self.end;
         (along * along + across * across).sqrt()
     }
 
-    /// From a row of numbers in the order of the fields.
+    /// Creates the properties from a row of values in the order of the fields.
     pub(crate) fn from_row(parent: Option<usize>, row: &[T; COLUMNS]) -> Self {
         let &[
             mass,
@@ -77,7 +77,7 @@ impl<T: Scalar> LinkProperties<T> {
         }
     }
 
-    /// Returns the row of numbers, in the order of the fields.
+    /// Returns the values as a row, in the order of the fields.
     #[doc(hidden)]
     #[must_use]
     pub fn into_row(self) -> [T; COLUMNS] {
@@ -94,8 +94,9 @@ impl<T: Scalar> LinkProperties<T> {
         ]
     }
 
-    /// A point of the link, from its pivot.
-    pub(crate) fn place(&self, point: LinkPoint) -> Option<[T; 2]> {
+    /// Returns the position (m) of a point of the link relative to its pivot; `None` for the pivot
+    /// itself.
+    pub(crate) fn offset_from_pivot(&self, point: LinkPoint) -> Option<[T; 2]> {
         match point {
             LinkPoint::Pivot => None,
             LinkPoint::Centre => Some(self.centre),
@@ -104,23 +105,22 @@ impl<T: Scalar> LinkProperties<T> {
     }
 }
 
-/// Positions and velocities of links, and the torques of forces on them. Emitted code
-/// implements it where `emit(positions)` asks for it.
+/// Positions and velocities of links, and the torques of forces on them. Emitted code implements
+/// this trait with `emit(positions)`.
 ///
-/// Vectors are x, y: x to the side to which positive angles move a link's end, y
-/// upwards, from the root's pivot; where that is driven, in the frame of reference that
-/// moves with it. All slices have one number for each link; for others the
-/// results are NaN.
+/// Vectors are \[x, y\] from the root's pivot: x to the side to which positive angles move a link's
+/// end, y upwards. If the root's pivot is driven, they are in the frame of reference that moves
+/// with it. All slices have one number for each link; for other lengths the results are NaN.
 ///
-/// So it is too where gravity is written as negative and the tree [stands](Self::stands): at
-/// angle 0 ends are above their pivots, and positive angles turn a link with the clock. The
-/// moment of a force F at r from a pivot, as the torque of a link, is x F_y − y F_x in a tree
-/// that hangs and y F_x − x F_y in one that stands.
+/// The axes are the same if the description's gravity is negative and the tree
+/// [stands](Self::stands): at angle 0 ends are above their pivots, and positive angles turn a link
+/// clockwise. The torque on a link of a force F at r = [x, y] from its pivot is x F_y − y F_x in a
+/// hanging tree, and y F_x − x F_y in a standing one.
 ///
 /// # Examples
 ///
-/// A branch in the wind, as air drags at its ends, and held by a thread at a point of
-/// its twig:
+/// This branch is in the wind, whose drag acts at the ends of its links, and a thread pulls at a
+/// point of its twig:
 ///
 #[cfg_attr(feature = "macros", doc = "```")]
 #[cfg_attr(not(feature = "macros"), doc = "```ignore")]
@@ -171,16 +171,16 @@ impl<T: Scalar> LinkProperties<T> {
     note = "a model knows it with `emit(positions)` in its attribute"
 )]
 pub trait Positions<T: Scalar>: Pendulum<T> {
-    /// Returns true if angles are those from the upward vertical: gravity is written as negative.
+    /// Returns true if angles are measured from the upward vertical, as for a negative gravity in
+    /// the description.
     fn stands(&self) -> bool {
         false
     }
 
-    /// Mass, inertia and places of a link, and its parent; none where there is no such
-    /// link.
+    /// Returns the mass, inertia, points and parent of a link; `None` if there is no such link.
     fn properties_of(&self, link: usize) -> Option<LinkProperties<T>>;
 
-    /// The links that hang from a link. Looks at all behind it.
+    /// Iterates over the children of a link. Searches all links that come after it.
     fn children(&self, link: usize) -> impl Iterator<Item = usize> {
         let behind = link.saturating_add(1)..self.links();
         behind.filter(move |&other| {
@@ -189,11 +189,11 @@ pub trait Positions<T: Scalar>: Pendulum<T> {
         })
     }
 
-    /// Writes the positions (m) of a point of every link at angles `theta` (rad).
+    /// Writes the position (m) of one point of each link at the angles `theta` (rad).
     fn points_into(&self, point: LinkPoint, theta: &[T], points: &mut [[T; 2]]);
 
-    /// Writes the velocities (m/s) of a point of every link at angles `theta` (rad) and
-    /// angular velocities `omega` (rad/s).
+    /// Writes the velocity (m/s) of one point of each link at the angles `theta` (rad) and angular
+    /// velocities `omega` (rad/s).
     fn point_velocities_into(
         &self,
         point: LinkPoint,
@@ -202,8 +202,8 @@ pub trait Positions<T: Scalar>: Pendulum<T> {
         velocities: &mut [[T; 2]],
     );
 
-    /// Writes the generalized torques Q = Jᵀ F (N m) of `forces` F (N) on a point of
-    /// every link, at angles `theta` (rad): the power of the forces is Q·ω.
+    /// Writes the generalized torques Q = Jᵀ F (N m) of `forces` F (N) that act on one point of
+    /// each link at the angles `theta` (rad). The power of the forces is Q·ω.
     fn point_torques_into(
         &self,
         point: LinkPoint,
@@ -253,9 +253,9 @@ by_reference! {
     }
 }
 
-/// A number, or a vector of them, that says that there is no answer.
+/// A number or a vector of numbers that can be NaN, which marks an undefined result.
 pub trait Unknown {
-    /// NaN.
+    /// Returns NaN.
     fn unknown() -> Self;
 }
 
@@ -280,7 +280,7 @@ impl<T: Scalar> Unknown for Transfer<T> {
     }
 }
 
-/// Fills a slice with what a function on arrays returns; NaN where lengths differ.
+/// Writes the result of a function of two arrays to a slice; writes NaN if lengths differ.
 #[inline]
 pub fn fill<A, B, C: Copy + Unknown, const N: usize>(
     first: &[A],
@@ -296,7 +296,7 @@ pub fn fill<A, B, C: Copy + Unknown, const N: usize>(
     }
 }
 
-/// Takes slices as arrays; none where lengths differ.
+/// Converts slices to arrays of `N` elements; `None` if a slice has another length.
 #[inline(always)]
 pub fn arrays<T, const N: usize, const A: usize>(slices: [&[T]; A]) -> Option<[&[T; N]; A]> {
     const { assert!(N > 0) }
@@ -320,7 +320,7 @@ pub fn no_answer<C: Copy + Unknown>(outputs: &mut [&mut [C]]) {
     }
 }
 
-/// Writes values to a slice; NaN where lengths differ.
+/// Copies values to a slice; fills the slice with NaN if lengths differ.
 #[inline(always)]
 pub fn write<C: Copy + Unknown>(output: &mut [C], values: &[C]) {
     match output.len() == values.len() {
@@ -329,7 +329,7 @@ pub fn write<C: Copy + Unknown>(output: &mut [C], values: &[C]) {
     }
 }
 
-/// Writes values to two slices; NaN in both where lengths of one differ.
+/// Copies values to two slices; fills both with NaN if a length differs.
 #[inline(always)]
 pub fn write_both<C: Copy + Unknown>(outputs: [&mut [C]; 2], values: [&[C]; 2]) {
     let fit = outputs.each_ref().map(|output| output.len()) == values.map(<[C]>::len);
@@ -338,7 +338,7 @@ pub fn write_both<C: Copy + Unknown>(outputs: [&mut [C]; 2], values: [&[C]; 2]) 
     }
 }
 
-/// The properties of a link of a tree that is written out.
+/// Returns the properties of a link, from the parents and rows of constants of a tree.
 pub fn properties<T: Scalar>(
     parents: &[Option<usize>],
     rows: &[[T; COLUMNS]],

@@ -1,27 +1,28 @@
-//! Pendulums of which some links are moved.
+//! Pendulums in which the motion of some links is prescribed.
 
 use alloc::vec::Vec;
 
-use super::function::{At, Computes, compute_in, functions};
-use super::second_order::{CastSecondOrder, HandedOver, SecondOrder, SecondOrderOde};
+use super::function::{At, Computes, SliceCounts, compute_in, functions};
+use super::motion::{Action, CastAction, Motion, MotionFunction, Opaque};
 use super::{Forced, Workspace};
 use crate::scalar::Scalar;
 
-/// A state, and what acts on it from outside.
+/// State of a tree with prescribed links: angles, velocities, external torques, and the
+/// accelerations of the prescribed links.
 #[derive(Clone, Copy, Debug)]
 pub struct PrescribedMotion<'a, T> {
     /// Angles of all links, rad.
     pub theta: &'a [T],
     /// Angular velocities of all links, rad/s.
     pub omega: &'a [T],
-    /// Generalized torques from outside on all links, N m.
+    /// Generalized external torques on all links, N m.
     pub torques: &'a [T],
     /// Angular accelerations of the prescribed links, rad/s².
     pub prescribed: &'a [T],
 }
 
 impl<'a, T> PrescribedMotion<'a, T> {
-    /// The slices of [`AccelerationsOfHeldLinks`](functions::AccelerationsOfHeldLinks).
+    /// Returns the slices of [`AccelerationsOfHeldLinks`](functions::AccelerationsOfHeldLinks).
     #[inline(always)]
     fn slices(self) -> [&'a [T]; 4] {
         let Self {
@@ -33,7 +34,7 @@ impl<'a, T> PrescribedMotion<'a, T> {
         [theta, omega, torques, prescribed]
     }
 
-    /// The motion that slices are.
+    /// Creates the motion from four slices; `None` for another number of slices.
     #[doc(hidden)]
     #[inline(always)]
     #[must_use]
@@ -50,10 +51,9 @@ impl<'a, T> PrescribedMotion<'a, T> {
     }
 }
 
-/// A model of which some links can be moved as the caller says: a hand holds them, a
-/// motor turns them. `prescribed(LINK, …)` in the description; each such entry is a set of
-/// links, which move together, and the model moves by itself all the same wherever it is
-/// not asked for a set.
+/// A model in which the motion of some links can be prescribed, as by a hand or a motor:
+/// `prescribed(LINK, …)` in the description. Each such entry defines a set of links that are
+/// prescribed together. Functions that take no set compute the motion without prescribed links.
 #[diagnostic::on_unimplemented(
     message = "no link of `{Self}` has a prescribed motion",
     note = "a model has some with `prescribed(LINK)` in its attribute"
@@ -61,14 +61,14 @@ impl<'a, T> PrescribedMotion<'a, T> {
 pub trait Prescribed<T: Scalar>:
     Forced<T> + Computes<functions::AccelerationsOfHeldLinks, T>
 {
-    /// Returns the indices of the links of a set, if there is one of that number: sets count in
-    /// the order of the description.
+    /// Returns the indices of the links in a set of prescribed links; `None` if there is no set
+    /// with that index. Sets are numbered in the order of the description.
     fn prescribed_links(&self, set: usize) -> Option<&[usize]>;
 
-    /// Writes the angular accelerations (rad/s²) of all links where those of a set are
-    /// given, and the reactions: the torques (N m) on these links that make them move so,
-    /// beyond those from outside. Their power is that of the reactions times the
-    /// velocities of their links. NaN where lengths do not fit or there is no such set.
+    /// Writes the angular accelerations (rad/s²) of all links and the reactions: the torques (N m)
+    /// that make the links of the set follow their prescribed motion, in addition to the external
+    /// torques. The power of the reactions is Σ reaction · angular velocity. NaN if a length is
+    /// wrong or the set does not exist.
     #[inline]
     fn accelerations_prescribed_into(
         &self,
@@ -82,8 +82,8 @@ pub trait Prescribed<T: Scalar>:
         self.accelerations_prescribed_with(workspace, set, time, motion, alpha, reactions);
     }
 
-    /// Writes the same, in memory that the caller keeps, as
-    /// [`Pendulum::accelerations_with`](super::Pendulum::accelerations_with).
+    /// Writes the same results, using memory that the caller keeps, as
+    /// [`Pendulum::accelerations_with`](super::Pendulum::accelerations_with) does.
     #[inline]
     fn accelerations_prescribed_with(
         &self,
@@ -110,12 +110,13 @@ impl<T: Scalar, P: Prescribed<T>> Prescribed<T> for &P {
     }
 }
 
-/// Angle, angular velocity and angular acceleration of a link.
+/// Angle (rad), angular velocity (rad/s) and angular acceleration (rad/s²) of a prescribed link.
 pub type LinkCourse<T> = [T; 3];
 
-/// Prescribed motion of links as a function of time. Functions `|time, course| …` are some.
+/// Prescribed motion of links as a function of time. Functions `|time, course| …` implement this
+/// trait.
 pub trait LinkCourses<T> {
-    /// Writes the motion of each link of a set at `time` (s).
+    /// Writes the motion of each link of the set at `time` (s) to `course`.
     fn courses_into(&self, time: T, course: &mut [LinkCourse<T>]);
 }
 
@@ -126,21 +127,21 @@ impl<T, F: Fn(T, &mut [LinkCourse<T>])> LinkCourses<T> for F {
     }
 }
 
-/// A course whose constants can be taken to any scalar, for ensembles in lanes, as
-/// [`LaneTorques`](super::LaneTorques).
+/// Prescribed motion whose constants can be converted to any scalar type, so that ensembles can
+/// integrate several trajectories at once; the counterpart of [`LaneTorques`](super::LaneTorques).
 pub trait LaneCourses<T: Scalar>: LinkCourses<T> {
-    /// This course on other scalars.
+    /// The type of this motion with constants of the scalar type `S`.
     type Of<S: Scalar>: LinkCourses<S>;
 
-    /// Takes every constant through `convert`, as
+    /// Returns the motion with each constant converted by `convert`, as in
     /// [`Model::cast`](super::Model::cast).
     fn on_scalar<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Self::Of<S>;
 }
 
-/// A pendulum of which a set of links moves as a function of time, as a first-order
-/// system in absolute angles: the state is the angles of all links followed by their
-/// angular velocities. Of the prescribed links it is to start as the function says, and
-/// stays so; the equations take their motion from the function alone.
+/// A pendulum of which a set of links moves as a function of time, as a first-order system in
+/// absolute angles: the state is the angles of all links followed by their angular velocities. The
+/// start state should agree with the function for the prescribed links; later states then agree as
+/// well. The equations take the motion of these links from the function only.
 ///
 /// # Examples
 ///
@@ -181,20 +182,18 @@ pub trait LaneCourses<T: Scalar>: LinkCourses<T> {
 /// assert!((alpha + pace * pace * theta[0]).abs() < 1e-6);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-pub type PrescribedOde<P, F> = SecondOrderOde<LinksOnCourse<P, F>>;
+pub type PrescribedOde<P, F> = Motion<P, functions::AccelerationsOfHeldLinks, Courses<F>>;
 
-/// A pendulum and the course of some of its links: [`PrescribedOde`].
+/// Action on a motion: the links of a set move as a function prescribes.
 #[derive(Clone, Debug)]
-pub struct LinksOnCourse<P, F> {
-    pendulum: P,
-    set: usize,
+pub struct Courses<F> {
     links: Vec<usize>,
-    course: HandedOver<F>,
+    course: Opaque<F>,
 }
 
-impl<P, F> SecondOrderOde<LinksOnCourse<P, F>> {
-    /// The pendulum, or a reference to one, of which the links of that set move as
-    /// `course(time, out)` writes; `None` without such a set.
+impl<P, F> PrescribedOde<P, F> {
+    /// Creates the system of a pendulum (or of a reference to one) in which `course(time, out)`
+    /// writes the motion of the links of the set; `None` if there is no such set.
     pub fn new<T: Scalar>(pendulum: P, set: usize, course: F) -> Option<Self>
     where
         P: Prescribed<T>,
@@ -203,148 +202,113 @@ impl<P, F> SecondOrderOde<LinksOnCourse<P, F>> {
         Self::of(pendulum, set, course)
     }
 
-    /// The pendulum with motions of a type of their own, as those of each lane; `None`
-    /// without such a set.
+    /// Creates the system of a pendulum with a motion of a type that implements [`LinkCourses`];
+    /// `None` if there is no such set.
     pub fn of<T: Scalar>(pendulum: P, set: usize, course: F) -> Option<Self>
     where
         P: Prescribed<T>,
         F: LinkCourses<T>,
     {
         let links = pendulum.prescribed_links(set)?.to_vec();
-        Some(SecondOrderOde(LinksOnCourse {
-            pendulum,
-            set,
-            links,
-            course: HandedOver(course),
-        }))
+        let course = Opaque(course);
+        Some(Self::new_of(pendulum, set, 0, Courses { links, course }))
     }
 
     /// Returns the indices of the prescribed links.
-    pub fn held_links(&self) -> &[usize] {
-        &self.0.links
+    pub fn prescribed_links(&self) -> &[usize] {
+        &self.action.links
     }
 
-    /// Writes the reactions (N m) on the links of the set in a state at `time`: the
-    /// torques that make them move so. Allocates.
+    /// Writes the reactions (N m) on the links of the set at `time` (s): the torques that make the
+    /// links follow their prescribed motion. Allocates.
     pub fn reactions_into<T: Scalar>(&self, time: T, state: &[T], reactions: &mut [T])
     where
         P: Prescribed<T>,
         F: LinkCourses<T>,
     {
-        let (Self(held), nan) = (self, T::from_f64(f64::NAN));
-        let links = held.pendulum.links();
-        if reactions.len() != held.links.len() || state.len() != 2 * links {
+        let nan = T::from_f64(f64::NAN);
+        let links = self.model.links();
+        if reactions.len() != self.action.links.len() || state.len() != 2 * links {
             return reactions.fill(nan);
         }
         let mut rates = alloc::vec![nan; state.len()];
         let rates = rates.split_at_mut(links).into();
         let workspace = Some(&mut Workspace::new());
-        held.write(
-            workspace,
-            time,
-            state.split_at(links).into(),
-            rates,
-            Some(reactions),
-        );
+        let state = state.split_at(links).into();
+        write(self, workspace, time, state, rates, Some(reactions));
     }
 }
 
-impl<P, F> LinksOnCourse<P, F> {
-    /// Writes velocities and accelerations, and reactions for whom asks for them.
-    #[inline(always)]
-    fn write<T: Scalar>(
-        &self,
-        workspace: Option<&mut Workspace<T>>,
-        time: T,
-        [theta, omega]: [&[T]; 2],
-        [velocities, alpha]: [&mut [T]; 2],
-        asked: Option<&mut [T]>,
-    ) where
-        P: Computes<functions::AccelerationsOfHeldLinks, T>,
-        F: LinkCourses<T>,
+/// Writes the velocities and accelerations of the system and, if requested, the reactions.
+#[inline(always)]
+fn write<T: Scalar, F: SliceCounts, P: Computes<F, T>, C: LinkCourses<T>>(
+    motion: &Motion<P, F, Courses<C>>,
+    workspace: Option<&mut Workspace<T>>,
+    time: T,
+    [theta, omega]: [&[T]; 2],
+    [velocities, alpha]: [&mut [T]; 2],
+    requested: Option<&mut [T]>,
+) {
+    let set = &motion.action;
+    let (links, prescribed) = (theta.len(), set.links.len());
+    let mut own = Workspace::new();
+    let is_kept = workspace.is_some();
+    let (room, inner) = workspace
+        .unwrap_or(&mut own)
+        .with_inner(3 * links + 5 * prescribed);
+    let (all, rest) = room.split_at_mut(3 * links);
+    let (angles, rest_of_links) = all.split_at_mut(links);
+    let (rates, torques) = rest_of_links.split_at_mut(links);
+    let (courses, rest) = rest.split_at_mut(3 * prescribed);
+    let (prescribed, reactions) = rest.split_at_mut(prescribed);
+    torques.fill(T::from_f64(0.0));
+    angles.copy_from_slice(theta);
+    rates.copy_from_slice(omega);
+    let (courses, _) = courses.as_chunks_mut::<3>();
+    set.course.0.courses_into(time, courses);
+    for ((&link, &mut [angle, rate, alpha]), prescribed) in
+        set.links.iter().zip(courses).zip(&mut *prescribed)
     {
-        let (links, held) = (theta.len(), self.links.len());
-        let mut own = Workspace::new();
-        let is_kept = workspace.is_some();
-        let (room, inner) = workspace
-            .unwrap_or(&mut own)
-            .with_inner(3 * links + 5 * held);
-        let (all, rest) = room.split_at_mut(3 * links);
-        let (motion, torques) = all.split_at_mut(2 * links);
-        let (courses, rest) = rest.split_at_mut(3 * held);
-        let (prescribed, reactions) = rest.split_at_mut(held);
-        let (angles, rates) = motion.split_at_mut(links);
-        torques.fill(T::from_f64(0.0));
-        angles.copy_from_slice(theta);
-        rates.copy_from_slice(omega);
-        let (courses, _) = courses.as_chunks_mut::<3>();
-        self.course.0.courses_into(time, courses);
-        for ((&link, &mut [angle, rate, alpha]), prescribed) in
-            self.links.iter().zip(courses).zip(&mut *prescribed)
-        {
-            *prescribed = alpha;
-            if let (Some(own_angle), Some(own_rate)) = (angles.get_mut(link), rates.get_mut(link)) {
-                (*own_angle, *own_rate) = (angle, rate);
-            }
+        *prescribed = alpha;
+        if let (Some(own_angle), Some(own_rate)) = (angles.get_mut(link), rates.get_mut(link)) {
+            (*own_angle, *own_rate) = (angle, rate);
         }
-        velocities.copy_from_slice(rates);
-        let at = At {
-            time,
-            index: self.set,
-        };
-        let given: [&[T]; 4] = [angles, rates, torques, prescribed];
-        let results = &mut [alpha, asked.unwrap_or(reactions)];
-        compute_in(
-            &self.pendulum,
-            is_kept.then_some(inner),
-            at,
-            &given,
-            results,
-        );
     }
+    velocities.copy_from_slice(rates);
+    let at = At {
+        time,
+        index: motion.index,
+    };
+    let given: [&[T]; 4] = [angles, rates, torques, prescribed];
+    let results = &mut [alpha, requested.unwrap_or(reactions)];
+    let inner = is_kept.then_some(inner);
+    compute_in(&motion.model, inner, at, &given, results);
 }
 
-impl<T: Scalar, P, F> SecondOrder<T> for LinksOnCourse<P, F>
-where
-    P: Computes<functions::AccelerationsOfHeldLinks, T>,
-    F: LinkCourses<T>,
-{
-    fn coordinates(&self) -> usize {
-        self.pendulum.links()
-    }
-
+impl<T: Scalar, C: LinkCourses<T>> Action<T> for Courses<C> {
     #[inline(always)]
-    fn rates(
-        &self,
+    fn rates<F: SliceCounts, M: Computes<F, T>>(
+        motion: &Motion<M, F, Self>,
         workspace: Option<&mut Workspace<T>>,
         time: T,
         state: [&[T]; 2],
         rates: [&mut [T]; 2],
     ) {
-        self.write(workspace, time, state, rates, None);
+        write(motion, workspace, time, state, rates, None);
     }
 }
 
-impl<T: Scalar, P, F> CastSecondOrder<T> for LinksOnCourse<P, F>
-where
-    P: Computes<functions::AccelerationsOfHeldLinks, T>,
-    F: LaneCourses<T>,
-{
-    type On<S: Scalar> = LinksOnCourse<P::On<S>, F::Of<S>>;
-
-    const COORDINATES: Option<usize> = P::KNOWN_LINKS;
+impl<T: Scalar, C: LaneCourses<T>> CastAction<T> for Courses<C> {
+    type On<S: Scalar> = Courses<C::Of<S>>;
 
     fn on<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Self::On<S> {
-        LinksOnCourse {
-            pendulum: self.pendulum.on(&convert),
-            set: self.set,
+        Courses {
             links: self.links.clone(),
-            course: HandedOver(self.course.0.on_scalar(&convert)),
+            course: Opaque(self.course.0.on_scalar(convert)),
         }
     }
+}
 
-    // The links of lane 0 stand for those of all.
-    fn shape(&self) -> usize {
-        self.pendulum.shape().wrapping_add(self.set)
-    }
+impl<P: Computes<Self, T>, T: Scalar> MotionFunction<P, T> for functions::AccelerationsOfHeldLinks {
+    const COORDINATES: Option<usize> = P::KNOWN_LINKS;
 }

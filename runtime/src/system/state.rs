@@ -1,4 +1,4 @@
-//! States of systems.
+//! States of a system at a single time.
 
 use alloc::vec::Vec;
 use core::fmt;
@@ -7,24 +7,24 @@ use crate::scalar::Scalar;
 
 /// A time and the values of all components at that time.
 ///
-/// For a second-order system the first half are positions (rad) and the second
-/// half velocities (rad/s).
+/// For a second-order system, the first half of the values are positions (rad) and the second half
+/// are velocities (rad/s).
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct State<T> {
     /// Time, in seconds.
     pub time: T,
-    /// All components.
+    /// All components of the state.
     pub values: Vec<T>,
 }
 
 impl<T: Scalar> State<T> {
-    /// The state `values` at `time`.
+    /// Creates the state `values` at `time` (s).
     pub fn new(time: T, values: Vec<T>) -> Self {
         Self { time, values }
     }
 
-    /// A state of a second-order system at `time`.
+    /// Creates a state of a second-order system at `time` (s).
     ///
     /// # Errors
     ///
@@ -46,19 +46,19 @@ impl<T: Scalar> State<T> {
         })
     }
 
-    /// A state of a second-order system with all velocities zero.
+    /// Creates a state of a second-order system at `time` (s) with all velocities zero.
     pub fn at_rest(time: T, positions: &[T]) -> Self {
         let mut values = positions.to_vec();
         values.resize(2 * positions.len(), T::from_f64(0.0));
         Self { time, values }
     }
 
-    /// The state of some of a model's links, in this order: to go on with a model of
-    /// fewer links after others have fallen off, which takes no velocity from those that
-    /// stay. None where a link is not there.
+    /// Returns the state of some of a model's links, in the order of `links`; `None` if a link does
+    /// not exist. This is the initial state of a model without the other links, after they have
+    /// fallen off.
     ///
-    /// A part that falls off takes its energy and momentum with it, and what stays keeps its
-    /// velocities. What lands at rest and sticks leaves the momenta as they are instead:
+    /// A part that falls off takes its energy and momentum with it, and the remaining links keep
+    /// their velocities. A part that lands at rest and sticks conserves the momenta instead: use
     /// `new.velocities(theta, &old.momenta(theta, omega))` with `emit(momenta)`.
     ///
     /// # Examples
@@ -111,19 +111,18 @@ impl<T: Scalar> State<T> {
         })
     }
 
-    /// The first half of the components, rounded down where their number is
-    /// odd.
+    /// Returns the first half of the components, rounded down if their number is odd.
     pub fn positions(&self) -> &[T] {
         self.values.split_at(self.values.len() / 2).0
     }
 
-    /// The components that [`positions`](Self::positions) leaves.
+    /// Returns the second half of the components, which follow the [`positions`](Self::positions).
     pub fn velocities(&self) -> &[T] {
         self.values.split_at(self.values.len() / 2).1
     }
 }
 
-/// Positions and velocities of a state differ in number.
+/// Error: a state was given different numbers of positions and velocities.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct LengthMismatch {
     /// Number of positions given.

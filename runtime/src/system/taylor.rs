@@ -1,29 +1,29 @@
-//! Systems that know the Taylor coefficients of their motion.
+//! Systems that compute the Taylor coefficients of their solutions.
 
 use super::by_reference::by_reference;
 use super::{AbsoluteAngles, Ode, Pendulum, Workspace};
 use crate::scalar::Scalar;
 use crate::simd::Quad;
 
-/// A pendulum whose motion is expanded in powers of the time. Emitted code
-/// implements it where `emit(taylor)` asks for it; trees that are read at run time have it.
+/// A pendulum whose motion can be expanded in powers of time. Emitted code implements this trait if
+/// the description has `emit(taylor)`; trees that are read at run time always implement it.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` does not know the Taylor coefficients of its motion",
     note = "a model knows them with `emit(taylor)` in its attribute"
 )]
 pub trait TaylorPendulum<T: Scalar>: Pendulum<T> {
-    /// Groups of four numbers that an expansion to order `order` works in.
+    /// Returns the length of the buffer `work`, in groups of four numbers, for an expansion to
+    /// order `order`.
     fn taylor_workspace(&self, order: usize) -> usize;
 
-    /// Writes the Taylor coefficients of the motion that passes through the
-    /// angles `theta` (rad) and angular velocities `omega` (rad/s) at `time`
-    /// (s).
+    /// Writes the Taylor coefficients of the motion through the angles `theta` (rad) and angular
+    /// velocities `omega` (rad/s) at `time` (s).
     ///
-    /// Coefficient k of all angles (rad/sᵏ), then of all angular velocities
-    /// (rad/sᵏ⁺¹), is at 2 k times the number of links of `coefficients`, for
-    /// as many orders as it has room for. The recurrences work in `work`,
-    /// whatever stands there: [`taylor_workspace`](Self::taylor_workspace). Where
-    /// lengths do not fit, the coefficients are NaN.
+    /// The coefficients of order k start at the index 2 k · links of `coefficients`: first those of
+    /// all angles (rad/sᵏ), then those of all angular velocities (rad/sᵏ⁺¹). The length of
+    /// `coefficients` determines the number of orders. `work` is a buffer of
+    /// [`taylor_workspace`](Self::taylor_workspace) elements with any content. If lengths do not
+    /// fit, the coefficients are NaN.
     fn taylor_coefficients_into(
         &self,
         time: T,
@@ -33,13 +33,13 @@ pub trait TaylorPendulum<T: Scalar>: Pendulum<T> {
         work: &mut [Quad<T>],
     );
 
-    /// Writes the coefficients of this pendulum on other scalars, in their
-    /// arithmetic: so
-    /// [`Ensemble::integrate_in_lanes`](crate::ensemble::Ensemble::integrate_in_lanes)
-    /// expands as many motions at a time as a vector register holds.
+    /// Writes the Taylor coefficients for a pendulum with constants of the scalar type `S`. With
+    /// vectors as scalars,
+    /// [`Ensemble::integrate_in_lanes`](crate::ensemble::Ensemble::integrate_in_lanes) expands as
+    /// many motions at a time as a vector register has lanes.
     ///
-    /// Write `#[inline(always)]`: the caller chooses the instructions that this is
-    /// compiled for.
+    /// Implementations should be `#[inline(always)]`: the caller chooses the instructions for which
+    /// this is compiled.
     fn taylor_coefficients_of<S: Scalar>(
         pendulum: &Self::Of<S>,
         time: S,
@@ -64,8 +64,7 @@ by_reference! {
     }
 }
 
-/// A first-order system y' = f(t, y) whose solution is expanded in powers of the
-/// time.
+/// First-order system y' = f(t, y) whose solution can be expanded in powers of time.
 ///
 /// # Examples
 ///
@@ -111,24 +110,24 @@ by_reference! {
     note = "the method `Taylor` takes `AbsoluteAngles(&model)` of a model with `emit(taylor)` in its attribute, or a `TaylorOde` of your own"
 )]
 pub trait TaylorOde<T>: Ode<T> {
-    /// Returns false if the coefficients are not known: a run of
-    /// [`Taylor`](crate::integrate::Taylor) is refused then.
+    /// Returns true if the Taylor coefficients are known; if not,
+    /// [`Taylor`](crate::integrate::Taylor) refuses to run.
     fn has_series(&self) -> bool {
         true
     }
 
-    /// Groups of four numbers that an expansion to order `order` works in.
+    /// Returns the length of the buffer `work`, in groups of four numbers, for an expansion to
+    /// order `order`.
     fn workspace(&self, order: usize) -> usize;
 
-    /// Writes the Taylor coefficients of the solution through `state` at
-    /// `time`.
+    /// Writes the Taylor coefficients of the solution through `state` at `time` (s).
     ///
-    /// Coefficient k of component i is at k · [`dimension`](Ode::dimension) + i
-    /// of `coefficients`, in units of the component per sᵏ, for as many orders
-    /// as it has room for. `work` is room to work in, whatever stands there:
-    /// as much as [`workspace`](Self::workspace) says for that order.
+    /// Coefficient k of component i is at the index k · [`dimension`](Ode::dimension) + i of
+    /// `coefficients`, in units of the component per sᵏ. The length of `coefficients` determines
+    /// the number of orders. `work` is a buffer of [`workspace`](Self::workspace) elements for that
+    /// order, with any content.
     ///
-    /// Where there is no answer, write NaN.
+    /// Writes NaN where the solution is undefined.
     fn taylor(&self, time: T, state: &[T], coefficients: &mut [T], work: &mut [Quad<T>]);
 }
 
@@ -158,9 +157,8 @@ impl<T: Scalar, P: TaylorPendulum<T>> TaylorOde<T> for AbsoluteAngles<P> {
     }
 }
 
-/// A system whose Taylor coefficients are not known, where a [`TaylorOde`] is
-/// asked for: for methods that are chosen by name. Holds the system, or a reference to
-/// it.
+/// System without Taylor coefficients, used where the type must be a [`TaylorOde`], for methods
+/// that are chosen by name. Contains the system or a reference to it.
 #[derive(Clone, Copy, Debug)]
 pub struct RatesOnly<O>(pub O);
 

@@ -1,28 +1,29 @@
 //! Small differences between copies that move in phase.
 
 use super::by_reference::by_reference;
-use super::function::{At, Computes, SliceCounts, compute_in, functions};
-use super::second_order::{CastSecondOrder, SecondOrder, SecondOrderOde};
+use super::function::{At, Computes, SliceCounts, functions};
+use super::motion::{Action, CastAction, Motion, MotionFunction};
 use super::{Pendulum, Workspace};
 use crate::scalar::Scalar;
 
-/// Copies that move in phase, whose small differences follow equations of their own.
+/// Set of copies that move in phase, and whose small differences obey separate equations.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct TransverseSector {
-    /// Name of the model's link that stands for the copies.
+    /// Name of the model's link that represents the copies.
     pub name: &'static str,
-    /// Index of that link; the links that hang from it follow it.
+    /// Index of that link in the model; the links of its subtree follow it.
     pub first: usize,
-    /// Number of these links, itself included: of the differences.
+    /// Number of links in the subtree, including the link itself. This is the number of
+    /// differences.
     pub links: usize,
     /// Number of copies under one link of the whole tree.
     pub copies: usize,
-    /// Number of links of the whole tree that hold such copies and move alike. Each has
-    /// differences of its own, which follow the same equations.
+    /// Number of links of the whole tree under which such copies hang and move in phase. The copies
+    /// under each of these links have separate differences, which obey the same equations.
     pub holders: usize,
 }
 
-/// An in-phase motion at one time, as slices of one value for each link.
+/// In-phase motion at one time, as slices with one value per link.
 #[derive(Clone, Copy, Debug)]
 pub struct InPhaseMotion<'a, T> {
     /// Angles, rad.
@@ -33,24 +34,23 @@ pub struct InPhaseMotion<'a, T> {
     pub alpha: &'a [T],
 }
 
-/// A model of copies in phase that knows how small differences between them go on:
-/// `in_phase(…)` with `emit(transverse)`.
+/// Model of copies that move in phase, together with the equations of small differences between the
+/// copies: `in_phase(…)` with `emit(transverse)`.
 ///
-/// Copies of a sector have the angles θ + e δ, with any numbers e that add up to 0 over
-/// the copies under one link and whose squares add up to the number of copies; ±1 for
-/// two. The differences δ of the copies and of all that hangs from them follow linear
-/// equations, exact for infinitesimal ones, whose coefficients are those of the in-phase
-/// motion (physics (12.2); for one link, Hill's equation). So a threshold costs that motion and
-/// a small linear system.
+/// Copies of a sector have the angles θ + e δ, with any numbers e that add up to 0 over the copies
+/// under one link and whose squares add up to the number of copies; ±1 for two. The differences δ
+/// of the copies and of their subtrees follow linear equations, exact for infinitesimal
+/// differences, whose coefficients depend on the in-phase motion (physics (12.2); for one link,
+/// Hill's equation). So computing a threshold needs only that motion and a small linear system.
 ///
 /// Sectors are counted in the order of [`TRANSVERSE`](Self::TRANSVERSE). Values are NaN
 /// for a sector that does not exist and for slices of other lengths.
 pub trait Transverse<T: Scalar>: Pendulum<T> + Computes<functions::LinearDifferences, T> {
-    /// The sectors.
+    /// Sectors for which the model has equations of small differences.
     const TRANSVERSE: &'static [TransverseSector];
 
-    /// Writes the second time derivatives (in rad/s²) of the differences of a sector
-    /// (in rad) with the given rates (in rad/s).
+    /// Writes the second time derivatives (rad/s²) of a sector's differences, given the differences
+    /// (rad) and their rates (rad/s).
     fn transverse_accelerations_into(
         &self,
         sector: usize,
@@ -61,8 +61,8 @@ pub trait Transverse<T: Scalar>: Pendulum<T> + Computes<functions::LinearDiffere
         accelerations: &mut [T],
     );
 
-    /// Writes the angular accelerations of the in-phase motion and after them those of the
-    /// differences, with what both need formed once.
+    /// Writes the angular accelerations of the in-phase motion, then those of a sector's
+    /// differences. Common parts are computed once.
     #[inline]
     fn transverse_motion_into(
         &self,
@@ -80,8 +80,8 @@ pub trait Transverse<T: Scalar>: Pendulum<T> + Computes<functions::LinearDiffere
         self.compute_with(&mut Workspace::new(), at, &given, &mut [accelerations]);
     }
 
-    /// Returns the energy (in J) of the differences in the copies under one link, with
-    /// the potential energy of links that hang: quadratic.
+    /// Returns the energy (J) of the differences between the copies under one link, including
+    /// potential energy. It is quadratic in the differences.
     fn transverse_energy_of(
         &self,
         sector: usize,
@@ -90,8 +90,8 @@ pub trait Transverse<T: Scalar>: Pendulum<T> + Computes<functions::LinearDiffere
         difference_rate: &[T],
     ) -> T;
 
-    /// Returns the energy transfer W (in W) into the differences: the rate of their
-    /// energy but for friction and drag.
+    /// Returns the energy transfer W (watts) into the differences: the rate of change of their
+    /// energy without friction and drag.
     fn transverse_transfer_of(
         &self,
         sector: usize,
@@ -101,8 +101,8 @@ pub trait Transverse<T: Scalar>: Pendulum<T> + Computes<functions::LinearDiffere
         difference_rate: &[T],
     ) -> T;
 
-    /// Returns the power (in W) of friction and drag on the energy of the differences. NaN
-    /// where friction is not viscous: it depends on the motion then, see
+    /// Returns the power (W) of friction and drag on the energy of the differences. NaN if friction
+    /// is not viscous, because it then depends on the in-phase motion; see
     /// [`transverse_friction_power_along`](Self::transverse_friction_power_along).
     fn transverse_friction_power_of(&self, sector: usize, difference_rate: &[T]) -> T;
 
@@ -118,11 +118,10 @@ pub trait Transverse<T: Scalar>: Pendulum<T> + Computes<functions::LinearDiffere
     }
 }
 
-/// An in-phase motion and the small differences of one sector as a first-order system:
-/// the state is the angles, the differences, the angular velocities and the rates of
-/// the differences. Differences of any size belong to it, since their equations are
-/// linear. Torques from outside that are equal on all copies change the in-phase motion
-/// alone.
+/// An in-phase motion and the small differences of one sector as a first-order system: the state is
+/// the angles, the differences, the angular velocities and the rates of the differences. The
+/// equations of the differences are linear, so the scale of the differences is arbitrary. External
+/// torques that are equal on all copies change the in-phase motion only.
 ///
 /// ```
 /// # #[cfg(feature = "macros")] {
@@ -156,79 +155,55 @@ pub trait Transverse<T: Scalar>: Pendulum<T> + Computes<functions::LinearDiffere
 /// assert!(growth(42.0).unwrap() < 10.0 && growth(44.0).unwrap() > 10.0);
 /// # }
 /// ```
-pub type TransverseOde<P> = SecondOrderOde<Beside<P>>;
+pub type TransverseOde<P> = Motion<P, functions::LinearDifferences, TransverseSector>;
 
-/// A model and one of its sectors: [`TransverseOde`].
-#[derive(Clone, Copy, Debug)]
-pub struct Beside<P> {
-    model: P,
-    index: usize,
-    sector: TransverseSector,
-}
-
-impl<P> SecondOrderOde<Beside<P>> {
-    /// The differences of the sector with that index beside the motion of a model, or
-    /// of a reference to one; `None` without such a sector.
+impl<P> TransverseOde<P> {
+    /// Creates the first-order system of a model (or of a reference to one): its in-phase motion
+    /// and the differences of the sector with that index; `None` if there is no such sector.
     pub fn new<T: Scalar>(model: P, sector: usize) -> Option<Self>
     where
         P: Transverse<T>,
     {
-        Some(SecondOrderOde(Beside {
-            model,
-            index: sector,
-            sector: *P::TRANSVERSE.get(sector)?,
-        }))
+        let action = *P::TRANSVERSE.get(sector)?;
+        Some(Self::new_of(model, sector, action.links, action))
     }
 
-    /// The sector.
+    /// Returns the sector to which the differences belong.
     pub fn sector(&self) -> &TransverseSector {
-        &self.0.sector
+        &self.action
     }
 }
 
-impl<T: Scalar, P: Computes<functions::LinearDifferences, T>> SecondOrder<T> for Beside<P> {
-    fn coordinates(&self) -> usize {
-        self.model.links() + self.sector.links
-    }
+impl<P: Transverse<T>, T: Scalar> MotionFunction<P, T> for functions::LinearDifferences {
+    const COORDINATES: Option<usize> = match (P::KNOWN_LINKS, common_links(P::TRANSVERSE)) {
+        (Some(motion), Some(links)) => Some(motion + links),
+        _ => None,
+    };
+}
 
+/// The differences of a sector move without external action.
+impl<T: Scalar> Action<T> for TransverseSector {
     #[inline(always)]
-    fn rates(
-        &self,
+    fn rates<F: SliceCounts, M: Computes<F, T>>(
+        motion: &Motion<M, F, Self>,
         workspace: Option<&mut Workspace<T>>,
         time: T,
         state: [&[T]; 2],
         rates: [&mut [T]; 2],
     ) {
-        let at = At {
-            time,
-            index: self.index,
-        };
-        with_differences(&self.model, workspace, at, state, rates);
+        motion.rates_freely(workspace, time, state, rates);
     }
 }
 
-impl<T: Scalar, P: Transverse<T>> CastSecondOrder<T> for Beside<P> {
-    type On<S: Scalar> = Beside<<P as Computes<functions::LinearDifferences, T>>::On<S>>;
+impl<T: Scalar> CastAction<T> for TransverseSector {
+    type On<S: Scalar> = Self;
 
-    const COORDINATES: Option<usize> = match (P::KNOWN_LINKS, common_links(P::TRANSVERSE)) {
-        (Some(motion), Some(links)) => Some(motion + links),
-        _ => None,
-    };
-
-    fn on<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Self::On<S> {
-        Beside {
-            model: self.model.on(convert),
-            index: self.index,
-            sector: self.sector,
-        }
-    }
-
-    fn shape(&self) -> usize {
-        self.model.shape().wrapping_add(self.index)
+    fn on<S: Scalar>(&self, _: impl Fn(T) -> S) -> Self {
+        *self
     }
 }
 
-/// Returns the number of links that all sectors have, if it is one.
+/// Returns the number of links of a sector if it is the same for all sectors, else `None`.
 const fn common_links(sectors: &[TransverseSector]) -> Option<usize> {
     let mut index = 0;
     while index < sectors.len() {
@@ -241,32 +216,6 @@ const fn common_links(sectors: &[TransverseSector]) -> Option<usize> {
         [] => None,
         [first, ..] => Some(first.links),
     }
-}
-
-/// Writes the rates of angles and differences, and of their velocities, by a function of
-/// angles, angular velocities, differences and their rates.
-#[inline(always)]
-pub(super) fn with_differences<F: SliceCounts, T: Scalar, P: Computes<F, T>>(
-    model: &P,
-    workspace: Option<&mut Workspace<T>>,
-    at: At<T>,
-    [angles, velocities]: [&[T]; 2],
-    [angle_rates, accelerations]: [&mut [T]; 2],
-) {
-    angle_rates.copy_from_slice(velocities);
-    let ([theta, difference], [omega, rate]) = (
-        parts(model.links(), angles),
-        parts(model.links(), velocities),
-    );
-    let given = [theta, omega, difference, rate];
-    compute_in(model, workspace, at, &given, &mut [accelerations]);
-}
-
-/// Returns the values of angles in phase, and those of differences.
-#[inline(always)]
-pub(super) fn parts<T>(links: usize, values: &[T]) -> [&[T]; 2] {
-    let (in_phase, differences) = values.split_at(links.min(values.len()));
-    [in_phase, differences]
 }
 
 by_reference! {

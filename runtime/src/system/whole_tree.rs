@@ -1,15 +1,15 @@
-//! Trees behind reduced models.
+//! Whole trees behind reduced models.
 
 use core::fmt;
 
 use crate::scalar::Scalar;
 
-/// The whole tree behind a reduced model: which of its links move as which link of the
-/// model.
+/// The whole tree that a reduced model represents: for each link of the tree, the link of the model
+/// that it follows.
 ///
-/// A description with `in_phase(…)` or `locked(…)` gives a model of fewer links; its
-/// constant `WHOLE` takes a state of the model to one of the tree as described. This is
-/// exact: the whole tree, started so, moves so.
+/// A description with `in_phase(…)` or `locked(…)` gives a model of fewer links; its constant
+/// `WHOLE` converts a state of the model to one of the tree as described. This is exact: the whole
+/// tree, started in that state, moves like the model.
 ///
 /// ```
 /// # #[cfg(feature = "macros")] {
@@ -35,46 +35,47 @@ pub struct WholeTree {
     orbits: &'static [WholeOrbit],
 }
 
-/// Links of a whole tree that are copies of one node of the description.
+/// Orbit of a whole tree: all links that are copies of the same node of the description.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WholeOrbit {
-    /// Copies under each copy of the parent.
+    /// Number of copies under each copy of the parent.
     pub copies: usize,
-    /// True if the copies under one parent move alike.
+    /// True if the copies under one parent move in phase.
     pub in_phase: bool,
-    /// Index behind the last node of the subtree.
+    /// Index after the last node of the orbit's subtree.
     pub end: usize,
-    /// Motion of the copies.
+    /// Motion of the copies relative to the model's links.
     pub motion: WholeMotion,
 }
 
-/// Motion of a link of a whole tree in terms of the model's links.
+/// How a link of the whole tree moves relative to the model's links.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum WholeMotion {
-    /// As a link of the model: the first copy as the one `offset` places behind the link
-    /// that it hangs from, each further one that moves by itself `stride` places later.
+    /// The link moves like a link of the model. The index of the first copy is that of its parent
+    /// plus `offset`; the index of each further copy that moves independently is larger by
+    /// `stride`.
     Moving {
-        /// Places between the first copy and the link that it hangs from.
+        /// Index of the first copy minus index of its parent.
         offset: usize,
-        /// Places from one copy to the next.
+        /// Difference of the indices of two consecutive copies.
         stride: usize,
     },
-    /// As the link that it hangs from.
+    /// The link is locked to its parent and moves with it.
     Locked {
-        /// Angle to that link, rad.
+        /// Constant angle relative to the parent, in rad.
         angle: f64,
     },
 }
 
-/// Slices of other lengths than a model and its whole tree have links.
+/// Error: a slice does not have one number per link of the model, or per link of the whole tree.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct WholeLengthError {
-    /// Number of values of the model that were given.
+    /// Length of the slice given for the model's links.
     pub given: usize,
     /// Number of links of the model.
     pub model: usize,
-    /// Room for values of the whole tree that was given.
+    /// Length of the slice given for the links of the whole tree.
     pub room: usize,
     /// Number of links of the whole tree.
     pub whole: usize,
@@ -99,7 +100,7 @@ impl fmt::Display for WholeLengthError {
 impl core::error::Error for WholeLengthError {}
 
 impl WholeTree {
-    /// A tree whose links stand depth first.
+    /// Creates a whole tree whose links are in depth-first order.
     #[doc(hidden)]
     #[must_use]
     pub const fn depth_first(model: usize, links: usize, orbits: &'static [WholeOrbit]) -> Self {
@@ -111,7 +112,7 @@ impl WholeTree {
         }
     }
 
-    /// A tree whose links stand generation by generation, all copies in phase.
+    /// Creates a whole tree whose links are ordered by generation, with all copies in phase.
     #[doc(hidden)]
     #[must_use]
     pub const fn by_generations(model: usize, links: usize, orbits: &'static [WholeOrbit]) -> Self {
@@ -123,15 +124,15 @@ impl WholeTree {
         }
     }
 
-    /// Returns the number of links of the whole tree. The model has fewer.
+    /// Returns the number of links of the whole tree, which is larger than that of the model.
     #[must_use]
     pub const fn links(&self) -> usize {
         self.links
     }
 
-    /// Calls `visit` with the link of the model as which each link of the whole tree
-    /// moves, and with its angle to that one (in rad), in the order of the whole tree's
-    /// links. Linear in their number.
+    /// Calls `visit` for each link of the whole tree, in order, with the index of the model's link
+    /// that it moves with, and the constant angle (rad) between the two links. Takes time
+    /// proportional to the number of links.
     pub fn for_each(&self, mut visit: impl FnMut(usize, f64)) {
         if self.by_generations {
             let (mut copies, mut link) = (1, 0);
@@ -149,7 +150,7 @@ impl WholeTree {
         }
     }
 
-    /// Visits all copies of a node under one link, each with what hangs from it.
+    /// Visits all copies of a node under one link, each with its subtree.
     fn visit(&self, orbit: usize, above: LinkInModel, visit: &mut impl FnMut(usize, f64)) {
         let Some(&WholeOrbit {
             copies,
@@ -186,7 +187,7 @@ impl WholeTree {
         }
     }
 
-    /// Counts the links of the whole tree that move as each link of the model.
+    /// Writes, for each link of the model, how many links of the whole tree follow it.
     pub fn counts(&self, counts: &mut [usize]) {
         counts.fill(0);
         self.for_each(|link, _| {
@@ -196,11 +197,12 @@ impl WholeTree {
         });
     }
 
-    /// Writes the angles of all links (in rad) at the angles of the model.
+    /// Writes the angles (rad) of all links of the whole tree, given the angles of the model's
+    /// links.
     ///
     /// # Errors
-    /// Slices of other lengths than the model and the whole tree have links; nothing is
-    /// written then.
+    /// [`WholeLengthError`] if the slices have other lengths than the model and the whole tree have
+    /// links; nothing is written then.
     pub fn angles<T: Scalar>(&self, model: &[T], whole: &mut [T]) -> Result<(), WholeLengthError> {
         self.expand(model, whole, |value, angle| match angle == 0.0 {
             true => value,
@@ -208,7 +210,8 @@ impl WholeTree {
         })
     }
 
-    /// Writes the angular velocities or accelerations of all links at those of the model.
+    /// Writes the angular velocities or accelerations of all links of the whole tree given those of
+    /// the model.
     ///
     /// # Errors
     /// Errors of [`angles`](Self::angles).
@@ -220,9 +223,8 @@ impl WholeTree {
         self.expand(model, whole, |value, _| value)
     }
 
-    /// Writes the torques on the links of the model that those on all links of the whole
-    /// tree come to: on each the sum over the links that move as it. Their power is the
-    /// same.
+    /// Converts torques (N m) on the links of the whole tree to torques on the model's links with
+    /// the same power: each is the sum over the links that follow the model's link.
     ///
     /// # Errors
     /// Errors of [`angles`](Self::angles).
@@ -267,13 +269,13 @@ impl WholeTree {
     }
 }
 
-/// Where a link of the whole tree stands in the model.
+/// Link of the model that a link of the whole tree follows.
 #[derive(Clone, Copy, Default)]
 struct LinkInModel {
-    /// Link of the model.
+    /// Index of the link in the model.
     link: usize,
-    /// Angle to that link.
+    /// Constant angle between the two links, in rad.
     angle: f64,
-    /// Number of this copy among those of locked links that hang from one link.
+    /// Index of this copy among the copies of locked links on the same link of the model.
     apart: usize,
 }

@@ -1,4 +1,4 @@
-//! Memory that evaluations need, kept by whoever asks for them.
+//! Memory for evaluations, which the caller keeps.
 
 use alloc::boxed::Box;
 use alloc::vec::Vec;
@@ -7,19 +7,19 @@ use crate::scalar::Scalar;
 
 /// Memory for evaluations of one system at a time.
 ///
-/// Models written out link by link need none. Trees in loops need some numbers
-/// for each link: the first evaluation with a workspace allocates them, later ones
-/// allocate nothing. One workspace serves any number of models, one after the
-/// other; several threads take one each. Integrators keep their own.
+/// Models with unrolled code need none. Trees computed in loops need some numbers per link: the
+/// first evaluation with a workspace allocates them, later ones allocate nothing. One workspace can
+/// be used for any number of models, one after the other; each thread needs its own. Integrators
+/// keep their own.
 #[derive(Clone, Debug)]
 pub struct Workspace<T> {
     numbers: Vec<T>,
-    /// For what is evaluated with these numbers.
+    /// Inner workspace, for an evaluation that runs while the numbers of this one are in use.
     inner: Option<Box<Workspace<T>>>,
 }
 
 impl<T: Scalar> Workspace<T> {
-    /// An empty workspace. Allocates nothing.
+    /// Creates an empty workspace. Allocates nothing.
     #[must_use]
     pub const fn new() -> Self {
         Self {
@@ -28,13 +28,14 @@ impl<T: Scalar> Workspace<T> {
         }
     }
 
-    /// Returns the first `length` numbers, whose values are left open.
+    /// Returns the first `length` numbers of the workspace, with arbitrary contents.
     #[inline]
     pub(crate) fn numbers(&mut self, length: usize) -> &mut [T] {
         first(&mut self.numbers, length)
     }
 
-    /// Returns the first `length` numbers, and another workspace.
+    /// Returns the first `length` numbers, with arbitrary contents, and an inner workspace for
+    /// another evaluation.
     #[doc(hidden)]
     pub fn with_inner(&mut self, length: usize) -> (&mut [T], &mut Self) {
         let numbers = first(&mut self.numbers, length);
@@ -48,7 +49,7 @@ impl<T: Scalar> Default for Workspace<T> {
     }
 }
 
-/// Returns the first `length` numbers, of which there are so many then.
+/// Returns the first `length` numbers of a vector, after extending it if it is shorter.
 #[inline]
 fn first<T: Scalar>(numbers: &mut Vec<T>, length: usize) -> &mut [T] {
     if numbers.len() < length {

@@ -1,64 +1,66 @@
-//! Bias terms of the equation of motion, order by order.
+//! Taylor coefficients of the bias, the part of the equation of motion that comes from friction,
+//! springs and drives, order by order.
 
-use super::room::{collect, spread};
+use super::buffer::{collect, spread};
 use crate::scalar::Scalar;
 use crate::simd::Quad;
 
-/// Coefficients of one order of what a torque may depend on, of all links.
+/// Taylor coefficients of one order, for all links, of the quantities on which a torque can depend.
 #[derive(Clone, Copy, Debug)]
 pub struct KnownOrder<T, const N: usize> {
-    /// Number of the order.
+    /// Order of the coefficients.
     pub order: usize,
-    /// Of the angles.
+    /// Coefficients of the angles.
     pub theta: [T; N],
-    /// Of the angular velocities.
+    /// Coefficients of the angular velocities.
     pub omega: [T; N],
-    /// Of their sines.
+    /// Taylor coefficients of the sines of the angles, one per link.
     pub sines: [T; N],
-    /// Of their cosines.
+    /// Taylor coefficients of the cosines of the angles, one per link.
     pub cosines: [T; N],
 }
 
-/// State that a bias may depend on, in one order.
+/// Taylor coefficients of one order on which a bias can depend, with four links in each quad.
 pub(super) struct KnownState<'a, T> {
-    /// Number of the order.
+    /// Order of the coefficients.
     pub(super) order: usize,
     pub(super) theta: &'a [T],
     pub(super) omega: &'a [T],
-    /// Of the sines of all links, zeros unless the bias asks for them.
+    /// Coefficients of the sines of all links' angles; zero unless the bias depends on them.
     pub(super) sines: &'a [Quad<T>],
-    /// Of their cosines.
+    /// Coefficients of the cosines of all links' angles; zero unless the bias depends on them.
     pub(super) cosines: &'a [Quad<T>],
 }
 
-/// The coefficients of the bias.
+/// Computes the Taylor coefficients of the bias (torques of friction, springs and drives).
 pub(super) trait Bias<T> {
-    /// True if sines and cosines are asked for.
-    const TURNS: bool;
+    /// True if the bias depends on sines and cosines of the angles.
+    const NEEDS_SINES: bool;
 
-    /// Returns true if there are any coefficients beyond order 0.
+    /// Returns true if the bias has nonzero Taylor coefficients above order 0.
     fn moves(&self) -> bool;
 
-    /// Writes those of one order, of four links each.
+    /// Writes the bias coefficients of one order, with four links in each quad.
     fn write(&mut self, known: KnownState<'_, T>, bias: &mut [Quad<T>]);
 
-    /// Returns the coefficient of an order of the uniform acceleration, along and against the
-    /// weights, of which these are the torques at one; none if it is one at all times.
+    /// Returns the coefficient of one order of the uniform acceleration (gravity and the motion of
+    /// the root's pivot), along and across the direction of the weights; the weights are torques at
+    /// an acceleration of 1. `None` if the acceleration is always 1.
     #[inline(always)]
-    fn fall(&self, order: usize) -> Option<[T; 2]> {
+    fn acceleration_coefficients(&self, order: usize) -> Option<[T; 2]> {
         let _ = order;
         None
     }
 }
 
-/// The bias that a function gives.
+/// Bias computed by a function.
 pub(super) struct MovingBias<F, const N: usize>(pub(super) F);
 
 impl<T: Scalar, F, const N: usize> Bias<T> for MovingBias<F, N>
 where
     F: FnMut(&KnownOrder<T, N>) -> [T; N],
 {
-    const TURNS: bool = true;
+    const NEEDS_SINES: bool = true;
 
     #[inline(always)]
     fn moves(&self) -> bool {
@@ -85,11 +87,12 @@ where
     }
 }
 
-/// None: a type of its own, so that nothing of it is left in the loop.
+/// Bias without coefficients above order 0. It is a separate type, so that no code for the bias
+/// remains in the loop.
 pub(super) struct ConstantBias;
 
 impl<T> Bias<T> for ConstantBias {
-    const TURNS: bool = false;
+    const NEEDS_SINES: bool = false;
 
     #[inline(always)]
     fn moves(&self) -> bool {

@@ -3,28 +3,29 @@
 use crate::scalar::Scalar;
 use crate::simd::Simd;
 
-/// A link during the elimination: what it feels of itself and of its children.
+/// A link during the elimination: its coefficients, including the contributions of its children.
+/// The symbols are defined in the module `elimination`.
 #[derive(Clone, Copy)]
 pub(super) struct EliminatedLink<P> {
-    /// J
+    /// Articulated inertia J.
     pub(super) inertia: P,
-    /// K
+    /// Inertia K that multiplies C: the part along the link's direction at the start.
     pub(super) inertia_along: P,
-    /// q
+    /// Product of inertia q.
     pub(super) product: P,
-    /// b
+    /// First moment b.
     pub(super) moment: [P; 2],
-    /// g
+    /// First moment g for C.
     pub(super) moment_along: [P; 2],
-    /// N_xx, N_xy, N_yy
+    /// Symmetric 2 × 2 matrix N, as N_xx, N_xy, N_yy.
     pub(super) deficit: [P; 3],
 }
 
-/// Numbers of an [`EliminatedLink`].
+/// Number of values in an [`EliminatedLink`].
 pub(super) const ELIMINATED: usize = 10;
 
 impl<P: Scalar> EliminatedLink<P> {
-    /// Takes the link from the numbers that [`numbers`](Self::numbers) returns.
+    /// Creates the link from the array that [`numbers`](Self::numbers) returns.
     #[inline(always)]
     pub(super) fn of(numbers: [P; ELIMINATED]) -> Self {
         let [inertia, inertia_along, product, numbers @ ..] = numbers;
@@ -39,7 +40,7 @@ impl<P: Scalar> EliminatedLink<P> {
         }
     }
 
-    /// Returns all its numbers, side by side.
+    /// Returns all values of the link as one array.
     #[inline(always)]
     pub(super) fn numbers(self) -> [P; ELIMINATED] {
         let Self {
@@ -64,7 +65,7 @@ impl<P: Scalar> EliminatedLink<P> {
         ]
     }
 
-    /// A link without children.
+    /// Creates a link without children.
     #[inline(always)]
     pub(super) fn alone(inertia: P, [m_x, m_y]: [P; 2]) -> Self {
         let zero = P::from_f64(0.0);
@@ -78,7 +79,7 @@ impl<P: Scalar> EliminatedLink<P> {
         }
     }
 
-    /// Adds b bᵀ/J, where `response` is b/J.
+    /// Adds b bᵀ/J to the matrix N; the argument is n = b/J.
     #[inline(always)]
     pub(super) fn relieve(&mut self, [n_x, n_y]: [P; 2]) {
         let ([b_x, b_y], [xx, xy, yy]) = (self.moment, self.deficit);
@@ -89,10 +90,10 @@ impl<P: Scalar> EliminatedLink<P> {
         ];
     }
 
-    /// Takes what a child with this N, at this r, does to it.
+    /// Adds the contribution of a child with the matrix N, attached at the point r.
     #[inline(always)]
     pub(super) fn carry(&mut self, [xx, xy, yy]: [P; 3], [r_x, r_y]: [P; 2]) {
-        // N r and N i r.
+        // The vectors N r and N i r.
         let across = [
             (xx * r_x).plus_product(xy, r_y),
             (xy * r_x).plus_product(yy, r_y),

@@ -1,72 +1,73 @@
-//! The equations of motion of one order, solved by elimination along the tree.
+//! Solution of the equations of motion for the Taylor coefficients of one order, by elimination
+//! along the tree.
 //!
-//! This is the articulated recursion of physics §10, (10.4) to (10.8), where what
-//! stands for ω̇ and −ω² are S and C: with v = e^(iθ) at the start, m = (h + i e) v
-//! of each link, r = (ℓ + i w) v_parent, and a the acceleration of the link's pivot,
+//! This is the articulated recursion of physics §10, (10.4) to (10.8), with S and C instead of ω̇
+//! and −ω². With v = e^(iθ) at the start, m = (h + i e) v of each link, r = (ℓ + i w) v_parent, and
+//! a the acceleration of the link's pivot,
 //!
 //! a_c = a + (S − i C) r_c, F = (S − i C) m + Σ F_c,
 //! X = M S + m·a + Σ r_c·F_c, Y = M C − m × a − Σ r_c × F_c,
 //!
-//! sums over the children c. What the matrix of this system becomes by elimination
-//! depends on the angles at the start alone and serves all orders:
+//! sums over the children c. The eliminated matrix of this system depends only on the angles at the
+//! start and serves all orders:
 //!
 //! b = m − Σ N_c r_c, g = i m − Σ N_c i r_c, N = Σ N_c + b bᵀ/J,
 //! J = M − Σ r_c·N_c r_c, K = M − Σ r_c × N_c i r_c, q = Σ r_c × N_c r_c.
 //!
-//! Let n = b/J and p = g + q n. A link hands a torque t, its share e in the parent's Y
-//! and a force f to its parent; T, E, F are the sums of what it gets. In quads, with the
-//! unit vectors of the last two places in H_x and H_y,
+//! Let n = b/J and p = g + q n. A link passes a torque t, its contribution e to the parent's Y and
+//! a force f to its parent; T, E, F are the sums that a link receives. In quads, with the unit
+//! vectors of the last two components in H_x and H_y,
 //!
 //! (t, e, f) = (−r·n, −r × n, n) (X + T) + (r·p, r × p, −p) C + H_x F_x + H_y F_y,
 //! (S, Y, a) = (1, q, 0) (X + T)/J + (−q/J, K − q²/J, 0) C + (0, E, 0)
 //!   + (−r·n, −r·p, r) S' + (r × n, r × p, −i r) C' + A_x a'_x + A_y a'_y
 //!
-//! with S', C', a' of the parent. An order takes one pass from the leaves to the root
-//! and one back, and in each a link takes four products of quads. The matrix of the
-//! second pass is that of the first one, transposed, but for signs.
+//! with S', C', a' of the parent. An order takes one upward pass (leaves to root) and one downward
+//! pass, and a link takes four products of quads in each. The matrix of the downward pass is the
+//! transpose of the upward one, except for signs.
 
-// One index into all arrays at once.
+// One index runs through several arrays at once.
 #![allow(clippy::needless_range_loop)]
 
+use super::buffer::{OfLinks, PackBuffer, PackColumn, SharedNumbers, WritableNumbers};
 use super::eliminated_link::{ELIMINATED, EliminatedLink};
 use super::links::TreeLinks;
-use super::room::{OfLinks, PackColumn, PackRoom, SharedNumbers, WritableNumbers};
 use super::start::{Constants, Origin};
 use crate::scalar::Scalar;
 use crate::simd::{Quad, Simd};
 
-/// The factors of a link at a start, in quads: of X + T and of C in what goes up; of F
-/// there; of X + T and of C in the link's own share of S and Y; of the parent's S and C,
-/// and of its a.
+/// Factors of a link at the start of the expansion, as five pairs of quads: those of X + T and of C
+/// in the values passed up; those of F in these values; those of X + T and of C in the link's own
+/// part of S and Y; those of the parent's S and C; those of the parent's a.
 pub(super) type LinkFactors<T> = [[Quad<T>; 2]; 5];
 
-/// Quads of [`LinkFactors`].
+/// Number of quads in [`LinkFactors`].
 pub(super) const FACTORS: usize = 10;
 
-/// The factors at a start, of each link.
+/// Factors of all links at the start of the expansion, which serve all orders.
 pub(super) struct TaylorElimination<'a, T, L> {
     links: L,
     factors: &'a [LinkFactors<T>],
 }
 
 impl<'a, T: Scalar, L: TreeLinks> TaylorElimination<'a, T, L> {
-    /// Eliminates from the leaves to the root, link by link.
+    /// Computes the factors by eliminating link by link from the leaves to the root.
     #[inline(always)]
     pub(super) fn new<P: Simd<T>, S: SharedNumbers<T>>(
         links: L,
-        room: &mut impl PackRoom<T>,
+        buffer: &mut impl PackBuffer<T>,
         origin: &Origin<'_, T, S>,
         constants: &Constants<'_, T>,
         factors: &'a mut [LinkFactors<T>],
     ) -> Self {
         let (zero, one) = (P::from_f64(0.0), P::from_f64(1.0));
         let (factors, _) = factors.split_at_mut(links.count());
-        let mut eliminated = room.rest().of_links::<P, ELIMINATED>();
+        let mut eliminated = buffer.rest().of_links::<P, ELIMINATED>();
         for i in 0..links.count() {
             let inertia = P::splat(constants.inertias[i]);
-            let moment = turned::<T, P>(
+            let moment = rotated::<T, P>(
                 constants.moments[i],
-                turn::<T, P, S>(origin, i),
+                cos_sin::<T, P, S>(origin, i),
                 links.lateral(),
             );
             eliminated.put(i, EliminatedLink::alone(inertia, moment).numbers());
@@ -88,9 +89,9 @@ impl<'a, T: Scalar, L: TreeLinks> TaylorElimination<'a, T, L> {
             ];
             if i > 0 {
                 let parent = links.parent(i);
-                let r = turned::<T, P>(
+                let r = rotated::<T, P>(
                     constants.attachments[i],
-                    turn::<T, P, S>(origin, parent),
+                    cos_sin::<T, P, S>(origin, parent),
                     links.lateral(),
                 );
                 let ([r_n, rxn], [r_p, rxp]) = (products(r, n), products(r, p));
@@ -119,30 +120,31 @@ impl<'a, T: Scalar, L: TreeLinks> TaylorElimination<'a, T, L> {
         Self { links, factors }
     }
 
-    /// Writes S and Y where X = `force` and C = `cosine`, in packs `P`. Quads are in `V`.
-    /// No closure takes part: what is not inlined is compiled without the registers.
+    /// Writes S and Y for X = `force` and C = `cosine`, in packs `P`; quads are vectors of type
+    /// `V`. It uses no closures, because a closure that is not inlined is compiled without vector
+    /// registers.
     #[inline(always)]
     pub(super) fn solve<P: Simd<T>, V: Simd<T>>(
         &self,
-        mut room: impl PackRoom<T>,
+        mut buffer: impl PackBuffer<T>,
         force: &impl PackColumn<P, 1>,
         cosine: &impl PackColumn<P, 1>,
         [s, y]: [&mut impl PackColumn<P, 1>; 2],
     ) {
-        let (mut forces, mut cosines) = (room.numbers(), room.numbers());
-        let packs = room.packs();
+        let (mut forces, mut cosines) = (buffer.numbers(), buffer.numbers());
+        let packs = buffer.packs();
         for m in 0..packs {
             let ([force], [cosine]) = (force.at(m), cosine.at(m));
             forces.write(m, force);
             cosines.write(m, cosine);
         }
-        // T, E, F, then S, Y, a. What is added to −0 is known to stay as it is: of few
-        // links one sum less to wait for.
-        let (mut sums, mut answers) = (room.link_quads(), room.link_quads());
+        // First T, E, F, then S, Y, a. The compiler knows that adding to −0 changes nothing, which
+        // saves a sum if a tree has few links.
+        let (mut sums, mut answers) = (buffer.link_quads(), buffer.link_quads());
         let (sums, answers) = (sums.as_mut(), answers.as_mut());
         sums.fill(Quad::splat(T::from_f64(-0.0)));
         self.rise::<V>([&forces, &cosines], sums, answers);
-        self.fall::<V>(&cosines, answers);
+        self.downward_pass::<V>(&cosines, answers);
         for m in 0..packs {
             if P::LANES == 1 {
                 let ([own_s, own_y, _, _], [_, along, _, _]) = (answers[m].0, sums[m].0);
@@ -153,7 +155,7 @@ impl<'a, T: Scalar, L: TreeLinks> TaylorElimination<'a, T, L> {
             let [mut of_s, mut of_y, mut along] = [[Quad::splat(T::from_f64(0.0))]; 3];
             let (first, place) = (m * P::LANES / 4 * 4, m % (4 / P::LANES));
             for l in 0..4 {
-                // Room may be for more links, with zeros.
+                // The memory may be larger than the tree; the rest is zero.
                 if first + l < answers.len() {
                     let [own_s, own_y, _, _] = answers[first + l].0;
                     (of_s[0].0[l], of_y[0].0[l]) = (own_s, own_y);
@@ -161,7 +163,7 @@ impl<'a, T: Scalar, L: TreeLinks> TaylorElimination<'a, T, L> {
                 }
             }
             s.put(m, [P::load_quad(&of_s, place)]);
-            // E last, for which no link waits.
+            // E is added last, since no link waits for it.
             y.put(
                 m,
                 [P::load_quad(&of_y, place) + P::load_quad(&along, place)],
@@ -169,8 +171,8 @@ impl<'a, T: Scalar, L: TreeLinks> TaylorElimination<'a, T, L> {
         }
     }
 
-    /// Goes from the leaves to the root: adds to T, E, F of each parent, and writes each link's
-    /// own share of S, Y, a.
+    /// Upward pass of the solution: adds to T, E and F of each parent, and writes each link's own
+    /// part of S, Y and a.
     #[inline(always)]
     fn rise<V: Simd<T>>(
         &self,
@@ -215,9 +217,9 @@ impl<'a, T: Scalar, L: TreeLinks> TaylorElimination<'a, T, L> {
         }
     }
 
-    /// Goes from the root to the leaves: adds to S, Y, a of each link what its parent gives.
+    /// Downward pass of the solution: adds the parent's part to S, Y and a of each link.
     #[inline(always)]
-    fn fall<V: Simd<T>>(&self, cosines: &impl OfLinks<T>, answers: &mut [Quad<T>]) {
+    fn downward_pass<V: Simd<T>>(&self, cosines: &impl OfLinks<T>, answers: &mut [Quad<T>]) {
         let (links, count) = (self.links, self.links.count());
         let factors = &self.factors[..count];
         for i in 1..count {
@@ -239,9 +241,9 @@ impl<'a, T: Scalar, L: TreeLinks> TaylorElimination<'a, T, L> {
     }
 }
 
-/// cos θ, sin θ of a link at the start.
+/// Returns cos θ and sin θ of a link's angle θ at the start.
 #[inline(always)]
-fn turn<T: Scalar, P: Simd<T>, S: SharedNumbers<T>>(
+fn cos_sin<T: Scalar, P: Simd<T>, S: SharedNumbers<T>>(
     origin: &Origin<'_, T, S>,
     link: usize,
 ) -> [P; 2] {
@@ -265,9 +267,9 @@ fn load<T: Scalar, V: Simd<T>>(quads: &[Quad<T>; 2]) -> [V; 2] {
     [V::load_quad(quads, 0), V::load_quad(quads, 1)]
 }
 
-/// (p + i q) e^(iθ) of a link in this direction.
+/// Returns (p + i q) e^(iθ) for the direction (cos θ, sin θ) of a link.
 #[inline(always)]
-fn turned<T: Scalar, P: Simd<T>>([p, q]: [T; 2], [cos, sin]: [P; 2], lateral: bool) -> [P; 2] {
+fn rotated<T: Scalar, P: Simd<T>>([p, q]: [T; 2], [cos, sin]: [P; 2], lateral: bool) -> [P; 2] {
     let p = P::splat(p);
     let [x, y] = [p * cos, p * sin];
     if lateral {
@@ -278,7 +280,7 @@ fn turned<T: Scalar, P: Simd<T>>([p, q]: [T; 2], [cos, sin]: [P; 2], lateral: bo
     }
 }
 
-/// u·w and u × w.
+/// Returns the scalar product u·w and the cross product u × w.
 #[inline(always)]
 fn products<P: Scalar>([u_x, u_y]: [P; 2], [w_x, w_y]: [P; 2]) -> [P; 2] {
     [

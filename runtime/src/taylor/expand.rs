@@ -1,25 +1,25 @@
-//! The recurrences of a tree.
+//! Taylor recurrences of a tree.
 //!
-//! Let γ + iσ = e^(i(θ−θ₀)) for each link, θ₀ its angle at the start, and
-//! C + iS the second derivative of that. The equation of motion is
+//! Let γ + iσ = e^(i(θ−θ₀)) for each link, where θ₀ is its angle at the start, and C + iS its
+//! second derivative. The equation of motion is
 //!
 //! γ_i X_i − σ_i Y_i + bias_i = 0,
 //!
-//! where X and Y are the force on the link, times its lever, across and along what
-//! it was at the start, its own inertia and its weight included. Both are linear in
-//! the C and S of all links, with coefficients of the start. Four products of series
-//! a link are all there is, for a tree of any shape and depth.
+//! where X and Y are the force on the link, times its lever, across and along its direction at the
+//! start, including its inertia and weight. Both are linear in the C and S of all links, with
+//! coefficients from the start. So a link takes only four products of series, for a tree of any
+//! shape and depth.
 //!
-//! In each order X follows from the equation, C from lower orders, and then S and Y
-//! from a linear system, by [`elimination`](super::elimination) along the tree, whose
-//! factors are formed once and serve all orders. From order 28 on, which is that of
-//! tolerances near rounding, the S of order 0 is refined once more.
+//! In each order X follows from the equation and C from lower orders; then S and Y follow from a
+//! linear system, by [`elimination`](super::elimination) along the tree, whose factors are computed
+//! once for all orders. From order 28 on (tolerances near rounding) the S of order 0 is refined
+//! once more.
 
 use super::bias::{Bias, ConstantBias, KnownOrder, MovingBias};
+use super::buffer::{Buffers, SharedNumbers, StackBuffers};
 use super::elimination::FACTORS;
 use super::links::{Connectivity, KnownLinks, TreeLinks};
 use super::orders::Orders;
-use super::room::{Rooms, SharedNumbers, StackRooms};
 use super::series::SERIES;
 use super::start::{Constants, LinkConstants, Origin, Start};
 use crate::scalar::kind::ByKind;
@@ -27,26 +27,23 @@ use crate::scalar::{Lanes, Scalar};
 use crate::simd::dispatch::in_fours;
 use crate::simd::{Quad, Simd};
 
-/// Number of quads that [`expand`] works in, for `links` links and polynomials of
-/// order `order`.
+/// Returns the number of quads of workspace that [`expand`] needs for `links` links and polynomials
+/// of order `order`.
 #[must_use]
 pub const fn workspace(links: usize, order: usize) -> usize {
     links * FACTORS + links.div_ceil(4) * SERIES * (order + 1)
 }
 
-/// Writes the Taylor coefficients of the motion from `start`, order by order:
-/// those of the angles, then those of the angular velocities. `Q` must be
-/// ⌈N/4⌉.
+/// Writes the Taylor coefficients of the motion from `start`. For each order these are the
+/// coefficients of the angles, then of the angular velocities. `Q` must be ⌈N/4⌉ for N links.
 ///
-/// `bias`, if there is one, returns the coefficient of an order of
-/// [`Start::bias`]. It is called with every order from 1 on, in turn.
+/// `bias`, if given, returns the coefficient of an order of [`Start::bias`]. It is called with
+/// every order from 1 on, in ascending order.
 ///
-/// Where `Q` or the length of `work` ([`workspace`]) does not fit, all coefficients
-/// are NaN.
+/// If `Q` or the length of `work` (see [`workspace`]) does not fit, all coefficients are NaN.
 ///
-/// Complexity: O(n p) for each of p orders of n links. Uses AVX2 and FMA for `f64`
-/// where the machine has them: results there differ by rounding from those
-/// elsewhere.
+/// Complexity: O(n p) for each of p orders of n links. Uses AVX2 and FMA for `f64` if the machine
+/// has them; results then differ by rounding from those of other machines.
 #[inline(always)]
 pub fn expand<T: Scalar, C: Connectivity<N>, const N: usize, const Q: usize, F>(
     start: &Start<'_, T, N>,
@@ -68,7 +65,7 @@ pub fn expand<T: Scalar, C: Connectivity<N>, const N: usize, const Q: usize, F>(
     }
     let orders = coefficients.iter_mut();
     for (row, angles) in orders.zip([start.theta, start.omega]) {
-        // Velocities of order 1 follow.
+        // The velocities of order 1 follow later.
         *row = [*angles, *start.omega];
     }
     let expansion = Expansion {
@@ -89,42 +86,42 @@ pub fn expand<T: Scalar, C: Connectivity<N>, const N: usize, const Q: usize, F>(
         count: coefficients.len(),
         coefficients: coefficients.as_flattened_mut().as_flattened_mut(),
     };
-    let rooms = StackRooms::<N, Q>;
+    let buffers = StackBuffers::<N, Q>;
     match bias {
-        Some(bias) => expansion.run(rooms, work, MovingBias::<_, N>(bias)),
-        None => expansion.run(rooms, work, ConstantBias),
+        Some(bias) => expansion.run(buffers, work, MovingBias::<_, N>(bias)),
+        None => expansion.run(buffers, work, ConstantBias),
     }
 }
 
-/// Request for the orders of an expansion, the first of which are known.
+/// An expansion to compute; its first orders are already known.
 pub(super) struct Expansion<'a, T, L, S> {
     pub(super) links: L,
     pub(super) origin: Origin<'a, T, S>,
     pub(super) constants: Constants<'a, T>,
-    /// Angles of all links, then angular velocities, order by order.
+    /// For each order, the coefficients of all angles, then of all angular velocities.
     pub(super) coefficients: &'a mut [T],
-    /// Number of orders in them.
+    /// Number of orders in `coefficients`.
     pub(super) count: usize,
 }
 
 impl<T: Scalar, L: TreeLinks, S: SharedNumbers<T>> Expansion<'_, T, L, S> {
-    /// Runs the orders in packs of links, or link by link where a number stands for several
-    /// states already.
+    /// Computes the orders, in packs of four links, or link by link if one number already holds
+    /// several states.
     #[inline(always)]
-    pub(super) fn run(self, rooms: impl Rooms<T>, work: &mut [Quad<T>], bias: impl Bias<T>) {
+    pub(super) fn run(self, buffers: impl Buffers<T>, work: &mut [Quad<T>], bias: impl Bias<T>) {
         T::by_kind(OrdersOf {
             expansion: self,
-            rooms,
+            buffers,
             work,
             bias,
         });
     }
 
-    /// Returns the orders in this room.
+    /// Returns the computation of the orders, with its workspace.
     #[inline(always)]
     fn orders<'o, R, B>(
         self,
-        room: R,
+        buffer: R,
         work: &'o mut [Quad<T>],
         bias: B,
     ) -> Orders<'o, T, L, S, R, B>
@@ -137,7 +134,7 @@ impl<T: Scalar, L: TreeLinks, S: SharedNumbers<T>> Expansion<'_, T, L, S> {
         let (rows, _) = rows.as_chunks_mut::<SERIES>();
         Orders {
             links: self.links,
-            room,
+            buffer,
             origin: self.origin,
             constants: self.constants,
             coefficients: self.coefficients,
@@ -149,10 +146,11 @@ impl<T: Scalar, L: TreeLinks, S: SharedNumbers<T>> Expansion<'_, T, L, S> {
     }
 }
 
-/// Asks for the orders.
+/// Operation that computes the orders of an expansion, run with the vector instructions of the
+/// machine.
 struct OrdersOf<'a, 'w, T, L, S, R, B> {
     expansion: Expansion<'a, T, L, S>,
-    rooms: R,
+    buffers: R,
     work: &'w mut [Quad<T>],
     bias: B,
 }
@@ -162,15 +160,15 @@ where
     T: Scalar,
     L: TreeLinks,
     S: SharedNumbers<T>,
-    R: Rooms<T>,
+    R: Buffers<T>,
     B: Bias<T>,
 {
     type Output = ();
 
     #[inline(always)]
     fn of_any(self) {
-        let room = self.rooms.in_fours();
-        in_fours::<T, _>(self.expansion.orders(room, self.work, self.bias));
+        let buffer = self.buffers.in_fours();
+        in_fours::<T, _>(self.expansion.orders(buffer, self.work, self.bias));
     }
 
     #[inline(always)]
@@ -178,8 +176,8 @@ where
     where
         T: Simd<W>,
     {
-        let room = self.rooms.one_by_one();
-        let orders = self.expansion.orders(room, self.work, self.bias);
+        let buffer = self.buffers.one_by_one();
+        let orders = self.expansion.orders(buffer, self.work, self.bias);
         orders.form::<T, Lanes<T, 4>, true>();
     }
 }

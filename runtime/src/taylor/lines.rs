@@ -1,25 +1,27 @@
-//! Springs, repulsions and dampers along lines between points, order by order.
+//! Taylor series of the forces of springs, repulsions and dampers along lines between points, order
+//! by order.
 //!
-//! With the arms (x, y) of a line, x' = −ω y and y' = ω x. The line is d = d₀ + Σ (x, y), its
-//! square q = d·d, and the moment of an arm d_y x − d_x y. The pull over the length is a sum of
-//! constants, of powers p = ℓ⁻ᵐ = q^(−m/2), for which 2 q p' = −m q' p, and of the damper's
-//! c (d·ḋ)/q. The torque on the link of an arm is the pull times its moment.
+//! The arms (x, y) of a line obey x' = −ω y and y' = ω x. The line is d = d₀ + Σ (x, y), its square
+//! q = d·d, and the moment of an arm d_y x − d_x y. The pull (force along the line) divided by the
+//! length is a sum of constants, of powers p = ℓ⁻ᵐ = q^(−m/2), for which 2 q p' = −m q' p, and of
+//! the damper's c (d·ḋ)/q. The torque on the link of an arm is the pull times its moment.
 
 use super::sums::whole;
 use crate::scalar::Scalar;
 use crate::simd::Quad;
 use crate::translational::{TranslationalSpringDamper, length_to};
 
-/// m of the power ℓ⁻ᵐ in the pull of a damper.
+/// Exponent m of the power ℓ⁻ᵐ of the length ℓ in the pull of a damper.
 const DAMPER: u32 = 2;
 
-/// Series of each arm: ω, x, y and the moment.
+/// Number of series for each arm: ω, x, y and the moment.
 const OF_ARM: usize = 4;
 
-/// Series of a line beside those of its arms and powers: the components of d, q, d·ḋ and the pull.
+/// Number of series for a line, in addition to those of its arms and powers: the two components of
+/// d, q, d·ḋ and the pull.
 const OF_LINE: usize = 5;
 
-/// What a line has a series of.
+/// Quantities of a line that are stored as Taylor series.
 #[derive(Clone, Copy)]
 enum LineQuantity {
     Rate(usize),
@@ -33,24 +35,25 @@ enum LineQuantity {
     Power(usize),
 }
 
-/// Quads that a line works in, in an expansion to order `order`.
-pub(super) fn line_room<T>(line: &TranslationalSpringDamper<T>, order: usize) -> usize {
+/// Returns the workspace length, in quads, of a line in an expansion to order `order`.
+pub(super) fn line_buffer_len<T>(line: &TranslationalSpringDamper<T>, order: usize) -> usize {
     let powers = line.potentials.len() + 1;
     let series = OF_ARM * line.arms.len() + OF_LINE + powers;
     (series * columns(order)).div_ceil(4)
 }
 
-/// Orders of each series: angles follow one order further than rates are known.
+/// Returns the number of orders stored of each series: one more than `order`, because angles are
+/// known one order further than rates.
 const fn columns(order: usize) -> usize {
     order + 2
 }
 
-/// The series of a line up to some order.
+/// Taylor series of a line, up to the last order.
 pub(super) struct LineSeries<'a, T> {
     pub(super) line: &'a TranslationalSpringDamper<T>,
-    /// As [`line_room`] says.
-    pub(super) room: &'a mut [Quad<T>],
-    /// The last order.
+    /// Workspace of [`line_buffer_len`] quads.
+    pub(super) buffer: &'a mut [Quad<T>],
+    /// Last order.
     pub(super) last: usize,
 }
 
@@ -75,29 +78,30 @@ impl<T: Scalar> LineSeries<'_, T> {
     #[inline(always)]
     fn at(&self, series: LineQuantity, order: usize) -> T {
         let index = self.index(series, order);
-        self.room[index / 4].0[index % 4]
+        self.buffer[index / 4].0[index % 4]
     }
 
     #[inline(always)]
     fn put(&mut self, series: LineQuantity, order: usize, value: T) {
         let index = self.index(series, order);
-        self.room[index / 4].0[index % 4] = value;
+        self.buffer[index / 4].0[index % 4] = value;
     }
 
-    /// Order k of a product.
+    /// Returns the coefficient of order k of the product of two series.
     #[inline(always)]
     fn product(&self, one: LineQuantity, other: LineQuantity, k: usize) -> T {
         let terms = (0..=k).map(|j| self.at(one, j) * self.at(other, k - j));
         terms.fold(T::from_f64(0.0), |sum, term| sum + term)
     }
 
-    /// Writes order k of all series, given that of angles and rates; of order 0 `START` is true.
+    /// Writes the coefficients of order k of all series, given those of the angles and rates.
+    /// `START` must be true for order 0.
     #[inline(always)]
     pub(super) fn write<const START: bool>(&mut self, k: usize, [theta, omega]: [&[T]; 2]) {
         let line = self.line;
         if START {
-            let turned = |arm: usize| line.arms[arm].turned(theta[line.arms[arm].link]);
-            self.stretch(0, line.offset, |_, arm| turned(arm));
+            let rotated = |arm: usize| line.arms[arm].rotated(theta[line.arms[arm].link]);
+            self.stretch(0, line.offset, |_, arm| rotated(arm));
         }
         for (number, arm) in line.arms.iter().enumerate() {
             self.put(LineQuantity::Rate(number), k, omega[arm.link]);
@@ -124,11 +128,12 @@ impl<T: Scalar> LineSeries<'_, T> {
         }
     }
 
-    /// Writes order k of arms, of the line, which begins with `offset`, and of q.
+    /// Writes the coefficients of order k of the arms, of the line (whose constant part is
+    /// `offset`) and of its squared length q.
     #[inline(always)]
-    fn stretch(&mut self, k: usize, mut offset: [T; 2], turned: impl Fn(&Self, usize) -> [T; 2]) {
+    fn stretch(&mut self, k: usize, mut offset: [T; 2], rotated: impl Fn(&Self, usize) -> [T; 2]) {
         for arm in 0..self.line.arms.len() {
-            let [x, y] = turned(self, arm);
+            let [x, y] = rotated(self, arm);
             self.put(LineQuantity::X(arm), k, x);
             self.put(LineQuantity::Y(arm), k, y);
             offset = [offset[0] + x, offset[1] + y];
@@ -140,7 +145,7 @@ impl<T: Scalar> LineSeries<'_, T> {
         self.put(LineQuantity::Square, k, square);
     }
 
-    /// Order k of the pull over the length.
+    /// Returns the coefficient of order k of the pull divided by the length.
     #[inline(always)]
     fn pull<const START: bool>(&mut self, k: usize) -> T {
         let line = self.line;
@@ -163,7 +168,8 @@ impl<T: Scalar> LineSeries<'_, T> {
         }
     }
 
-    /// Order k of ℓ⁻ᵐ, the power of this number.
+    /// Returns the coefficient of order k of ℓ⁻ᵐ, where ℓ is the length, m is `exponent`, and
+    /// `number` is the index of this power.
     #[inline(always)]
     fn power<const START: bool>(&mut self, k: usize, number: usize, exponent: u32) -> T {
         let own = LineQuantity::Power(number);
@@ -183,7 +189,7 @@ impl<T: Scalar> LineSeries<'_, T> {
         value
     }
 
-    /// Order k of (d·ḋ)/q, with d·ḋ half of the rate of q.
+    /// Returns the coefficient of order k of (d·ḋ)/q, where d·ḋ is half of the rate of q.
     #[inline(always)]
     fn damping<const START: bool>(&mut self, k: usize) -> T {
         let half = T::from_f64(0.5) * whole::<T>(k + 1);
@@ -194,7 +200,8 @@ impl<T: Scalar> LineSeries<'_, T> {
         self.product(LineQuantity::Stretching, LineQuantity::Power(number), k)
     }
 
-    /// Returns order k of the torque on the link of an arm, against its turning.
+    /// Returns the coefficient of order k of the torque on the link of an arm; it is positive if it
+    /// acts against the link's rotation.
     #[inline(always)]
     pub(super) fn torque(&self, arm: usize, k: usize) -> T {
         self.product(LineQuantity::Pull, LineQuantity::Moment(arm), k)

@@ -1,26 +1,26 @@
-//! How the links of a tree hang on each other.
+//! Topology of a tree: the parent of each link.
 
 use core::marker::PhantomData;
 
-/// The links of a tree, parents before children.
+/// Links of a tree, parents before children.
 pub(super) trait TreeLinks: Copy {
-    /// Returns how many there are.
+    /// Returns the number of links.
     fn count(&self) -> usize;
 
-    /// Returns the number of a link's parent. The root's does not count.
+    /// Returns the index of a link's parent; unused for the root.
     fn parent(&self, link: usize) -> usize;
 
-    /// Returns the links that none hangs on, from the last to the first.
+    /// Returns the links without children, from the last to the first.
     fn leaves(&self) -> &[usize];
 
-    /// Returns the links that others hang on, from the last one to the root.
+    /// Returns the links with children, from the last one to the root.
     fn carriers(&self) -> &[usize];
 
-    /// Returns false if centres of mass and pivots lie on the links' axes.
+    /// Returns false if all centres of mass and pivots lie on the links' axes.
     fn lateral(&self) -> bool;
 }
 
-/// Links that the compiler knows.
+/// Topology that is known at compile time.
 pub(super) struct KnownLinks<C, const N: usize>(PhantomData<C>);
 
 impl<C, const N: usize> KnownLinks<C, N> {
@@ -67,17 +67,17 @@ impl<C: Connectivity<N>, const N: usize> TreeLinks for KnownLinks<C, N> {
     }
 }
 
-/// Says which link of a tree hangs on which.
+/// Topology of a tree of `N` links as constants.
 pub trait Connectivity<const N: usize> {
-    /// Index of each link's parent, which comes before it. The root's, link 0, does
-    /// not count.
+    /// Index of each link's parent, which must come before the link; the value is ignored for the
+    /// root, link 0.
     const PARENTS: [usize; N];
 
-    /// False if centres of mass and pivots lie on the links' axes: then all second
-    /// components of moments and attachments are zero.
+    /// False if all centres of mass and pivots lie on the links' axes. The second components of
+    /// moments and attachments are zero then.
     const LATERAL: bool;
 
-    /// True for links that others hang on.
+    /// True for links with children.
     #[doc(hidden)]
     const CARRIES: [bool; N] = {
         let mut carries = [false; N];
@@ -89,15 +89,15 @@ pub trait Connectivity<const N: usize> {
         carries
     };
 
-    /// Links that others hang on, from the last one to the root; and how many they are.
+    /// Links with children, from the last one to the root, and their number.
     #[doc(hidden)]
     const CARRIERS: ([usize; N], usize) = listed(&Self::CARRIES, true);
 
-    /// Links that none hangs on, likewise.
+    /// Links without children, from the last to the first, and their number.
     #[doc(hidden)]
     const LEAVES: ([usize; N], usize) = listed(&Self::CARRIES, false);
 
-    /// Fails to compile where a parent comes behind its child.
+    /// Fails to compile if a parent comes after its child.
     #[doc(hidden)]
     const ORDERED: () = {
         let mut link = 1;
@@ -108,7 +108,7 @@ pub trait Connectivity<const N: usize> {
     };
 }
 
-/// Numbers of the links of which this is said, from the last to the first, and how many.
+/// Lists the indices at which `said` equals `this`, from the last to the first, and their number.
 const fn listed<const N: usize>(said: &[bool; N], this: bool) -> ([usize; N], usize) {
     let (mut list, mut count) = ([0; N], 0);
     let mut link = N;

@@ -1,29 +1,28 @@
-//! Parts of emitted recurrences of Taylor coefficients.
+//! Taylor coefficients of the motion of a tree, for emitted code.
 //!
-//! [`expand`] has the recurrences of a tree: emitted code hands it the
-//! constants of its equation of motion. What else moves the tree, functions of
-//! the time and torques of friction and springs, emitted code computes order by
-//! order, with [`sums`] for its products of series.
+//! [`expand`] computes the recurrences of a tree; emitted code passes the constants of the tree's
+//! equation of motion to it. Other torques, which depend on time or come from friction and springs,
+//! are computed by emitted code order by order, with [`sums`] for products of series.
 //!
-//! [`SeriesTree`] has the same for trees whose number of links no type tells.
+//! [`SeriesTree`] does the same for trees whose number of links is not a compile-time constant.
 //!
 //! [`integrate::Taylor`] is the method that uses both.
 //!
 //! [`integrate::Taylor`]: crate::integrate::Taylor
 
 mod bias;
+mod buffer;
+mod caller_buffers;
 mod eliminated_link;
 mod elimination;
 mod expand;
 mod friction;
-mod lent;
 mod lines;
 mod links;
 mod orders;
 mod reciprocal;
 mod recurrence;
 mod refine;
-mod room;
 mod series;
 mod start;
 mod sums;
@@ -36,7 +35,7 @@ mod tree_expansion;
 pub use crate::simd::Quad;
 pub use bias::KnownOrder;
 pub use expand::{expand, workspace};
-pub use friction::RoughFriction;
+pub use friction::NonViscousFriction;
 pub use links::Connectivity;
 pub use start::{LinkConstants, Start};
 pub use sums::{Factors, rows, sums, whole};

@@ -1,14 +1,14 @@
-//! Divisions by the order.
+//! Accurate division by the order.
 
 use crate::scalar::Scalar;
 use crate::simd::Simd;
 
-/// 1/n in two parts: a rounded reciprocal would be wrong by the same amount in
-/// every step of a run.
+/// The number 1/n as the sum of two parts. A single rounded reciprocal would cause the same error
+/// in every step of a run.
 #[derive(Clone, Copy)]
 pub(super) struct Reciprocal<P> {
     high: P,
-    /// Zero where products are not fused with the sums they go into.
+    /// Low part of 1/n; zero if the machine has no fused multiply–add.
     low: P,
 }
 
@@ -30,21 +30,21 @@ impl<P: Scalar> Reciprocal<P> {
     }
 }
 
-/// What order k is divided by.
+/// Divisors of order k.
 #[derive(Clone, Copy)]
 pub(super) struct Divisors<P> {
-    /// k + 1
+    /// The number k + 1.
     pub(super) next: P,
-    /// 1/k
+    /// The number 1/k.
     pub(super) over_k: Reciprocal<P>,
-    /// 1/(k (k+1))
+    /// The number 1/(k (k+1)).
     pub(super) over_both: Reciprocal<P>,
-    /// 1/(k+1)
+    /// The number 1/(k+1).
     pub(super) over_next: Reciprocal<P>,
 }
 
 impl<P: Scalar> Divisors<P> {
-    /// Returns those of an order, with its reciprocal, which the order before it had too.
+    /// Returns the divisors of order k from 1/k, which the order before also used.
     #[inline(always)]
     pub(super) fn of(k: P, over_k: Reciprocal<P>) -> Self {
         let next = k + P::from_f64(1.0);

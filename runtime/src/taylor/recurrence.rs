@@ -1,59 +1,60 @@
-//! The recurrences of an expansion at work, in packs of links.
+//! State of the recurrences of an expansion, in packs of links.
 
 use super::bias::{Bias, KnownState};
+use super::buffer::{PackBuffer, PackColumn, SharedNumbers, collect, read};
 use super::elimination::TaylorElimination;
 use super::links::TreeLinks;
 use super::reciprocal::{Divisors, Reciprocal};
 use super::refine::Balance;
-use super::room::{PackColumn, PackRoom, SharedNumbers, collect, read};
-use super::series::{SUMS, SeriesRow, SeriesSums, store, turned};
+use super::series::{SUMS, SeriesRow, SeriesSums, sine_coefficients, store};
 use super::start::{Constants, Origin, weights};
 use crate::scalar::Scalar;
 use crate::simd::Simd;
 
-/// Number of links up to which one state has its sums formed order by order, from which
-/// two orders at a time: for more links the machine computes more than it waits.
+/// Largest number of links for which the sums of a single state are computed order by order. For
+/// more links, two orders are computed at a time, because computing then takes longer than waiting
+/// for results.
 const IN_TURN: usize = 15;
 
-/// What orders take from the start, and the next order from those before, in packs `P`
-/// of numbers. The letters are those of [`orders`](super::orders).
+/// Quantities that all orders take from the start, and quantities that each order takes from the
+/// orders before, in packs `P`. The symbols are defined in [`orders`](super::orders).
 pub(super) struct Recurrence<'a, T, P, R, L, B>
 where
     T: Scalar,
     P: Simd<T>,
-    R: PackRoom<T>,
+    R: PackBuffer<T>,
 {
     pub(super) links: L,
     pub(super) system: TaylorElimination<'a, T, L>,
     pub(super) bias: B,
-    pub(super) room: R,
+    pub(super) buffer: R,
     pub(super) rows: &'a mut [SeriesRow<T>],
-    /// Number of orders in the rows of four links, one after the other.
+    /// Number of orders stored for each group of four links.
     pub(super) count: usize,
-    /// ω\[0\]
+    /// Angular velocities ω\[0\] at the start.
     pub(super) omega: R::OfPacks<P, 1>,
-    /// cos θ, sin θ at the start.
+    /// Cosine and sine of the angles θ at the start.
     pub(super) turn: R::OfPacks<P, 2>,
-    /// Weights along and across.
+    /// Weights along and across the links' directions at the start.
     pub(super) weight: R::OfPacks<P, 2>,
-    /// X, C, S, Y of the newest order.
+    /// Coefficients X, C, S and Y of the newest order.
     pub(super) x: R::OfPacks<P, 1>,
     pub(super) c: R::OfPacks<P, 1>,
     pub(super) s: R::OfPacks<P, 1>,
     pub(super) y: R::OfPacks<P, 1>,
-    /// S − α of that order.
+    /// Difference S − α of the newest order.
     pub(super) s_rest: R::OfPacks<P, 1>,
-    /// X without the torque of gravity.
+    /// Coefficient X of the newest order without the torque of gravity.
     pub(super) force: R::OfPacks<P, 1>,
-    /// Sums of the order in work, and of the one after it as far as they are formed with these.
+    /// Sums of products for the current order, and for the next order as far as they are known.
     pub(super) sums: R::OfPacks<P, SUMS>,
     pub(super) next_sums: R::OfPacks<P, SUMS>,
-    /// Coefficients of the newest order, of all links.
+    /// Coefficients of the newest order of the angles and angular velocities of all links.
     pub(super) theta: R::Quads,
     pub(super) velocity: R::Quads,
     pub(super) sines: R::Quads,
     pub(super) cosines: R::Quads,
-    /// Worked in.
+    /// Workspace of the elimination.
     pub(super) quads: R::Quads,
 }
 
@@ -61,11 +62,11 @@ impl<T, P, R, L, B> Recurrence<'_, T, P, R, L, B>
 where
     T: Scalar,
     P: Simd<T>,
-    R: PackRoom<T>,
+    R: PackBuffer<T>,
     L: TreeLinks,
     B: Bias<T>,
 {
-    /// Forms order 0, and 1 of ω, γ, σ.
+    /// Computes order 0 of all series, and order 1 of ω, γ and σ.
     #[inline(always)]
     pub(super) fn start<V: Simd<T>>(
         &mut self,
@@ -73,7 +74,7 @@ where
         constants: &Constants<'_, T>,
     ) {
         let zero = P::splat(T::from_f64(0.0));
-        let size = [self.room.packs(), self.links.count()];
+        let size = [self.buffer.packs(), self.links.count()];
         let quads = self.quads.as_mut();
         read(origin.omega, quads, size, 0, &mut self.omega);
         read(origin.cosines, quads, size, 0, &mut self.turn);
@@ -81,23 +82,23 @@ where
         read(constants.weights, quads, size, 0, &mut self.weight);
         read(constants.lateral_weights, quads, size, 1, &mut self.weight);
         read(origin.bias, quads, size, 0, &mut self.x);
-        for m in 0..self.room.packs() {
+        for m in 0..self.buffer.packs() {
             let ([velocity], [first_bias]) = (self.omega.at(m), self.x.at(m));
-            // With the weight in it.
+            // The bias of order 0 includes the weight.
             self.x.put(m, [zero - first_bias]);
             self.c.put(m, [zero.minus_product(velocity, velocity)]);
             self.s_rest.put(m, [zero]);
-            let (row, place) = self.place(m, 0);
+            let (row, place) = self.row_of_pack(m, 0);
             store(
                 [velocity, zero, velocity, zero, zero],
                 &mut self.rows[row],
                 place,
             );
         }
-        self.solve_under::<V>(self.bias.fall(0));
+        self.solve_under::<V>(self.bias.acceleration_coefficients(0));
     }
 
-    /// Adds to S and Y of order 0 what they lack of the equation of motion.
+    /// Refines S and Y of order 0 by one step of iterative refinement.
     #[inline(always)]
     pub(super) fn refine<V: Simd<T>, S: SharedNumbers<T>>(
         &mut self,
@@ -110,20 +111,20 @@ where
             constants,
             turn: &self.turn,
             weight: &self.weight,
-            fall: self.bias.fall(0),
+            fall: self.bias.acceleration_coefficients(0),
         };
         let quads = self.quads.as_mut();
-        balance.residual::<P, _>(&mut self.room.rest(), quads, &self.s, &mut self.force);
-        let packs = self.room.packs();
-        let mut room = self.room.rest();
-        let mut none = room.of_packs::<P, 1>();
-        let (mut more_s, mut more_y) = (room.of_packs::<P, 1>(), room.of_packs::<P, 1>());
+        balance.residual::<P, _>(&mut self.buffer.rest(), quads, &self.s, &mut self.force);
+        let packs = self.buffer.packs();
+        let mut buffer = self.buffer.rest();
+        let mut none = buffer.of_packs::<P, 1>();
+        let (mut more_s, mut more_y) = (buffer.of_packs::<P, 1>(), buffer.of_packs::<P, 1>());
         for m in 0..packs {
             none.put(m, [P::splat(T::from_f64(0.0))]);
         }
         let answers = [&mut more_s, &mut more_y];
         self.system
-            .solve::<P, V>(room.rest(), &self.force, &none, answers);
+            .solve::<P, V>(buffer.rest(), &self.force, &none, answers);
         for m in 0..packs {
             let ([of_s], [of_y]) = (self.s.at(m), self.y.at(m));
             let ([more_s], [more_y]) = (more_s.at(m), more_y.at(m));
@@ -132,12 +133,12 @@ where
         }
     }
 
-    /// Forms the sums of order k as far as they do not depend on S\[k−1\] and α\[k−1\]:
-    /// there was time for them while these were formed.
+    /// Computes those terms of the sums of order k that do not depend on S\[k−1\] and α\[k−1\], so
+    /// that both computations overlap.
     #[inline(always)]
     pub(super) fn add_up<const SEVERAL: bool>(&mut self, k: usize) {
-        for m in 0..self.room.packs() {
-            let (first, place) = self.place(m, 0);
+        for m in 0..self.buffer.packs() {
+            let (first, place) = self.row_of_pack(m, 0);
             let lower = &self.rows[first..][..k];
             let now = if !SEVERAL && self.links.count() <= IN_TURN {
                 SeriesSums::of(&lower[1..], place)
@@ -154,8 +155,8 @@ where
         }
     }
 
-    /// Keeps the newest order, k − 1 of X and Y, and forms X without the bias, C and S − α of
-    /// order k.
+    /// Stores the coefficients of X and Y of order k − 1; then computes those of order k of C, of S
+    /// − α, and of X without the bias.
     #[inline(always)]
     pub(super) fn append(&mut self, k: usize, divisors: Divisors<P>) {
         let Divisors {
@@ -164,19 +165,19 @@ where
             over_both,
             ..
         } = divisors;
-        for m in 0..self.room.packs() {
+        for m in 0..self.buffer.packs() {
             let ([velocity_0], [of_s], [of_y]) = (self.omega.at(m), self.s.at(m), self.y.at(m));
             let ([of_c], [rest], [of_x]) = (self.c.at(m), self.s_rest.at(m), self.x.at(m));
             let sums = SeriesSums::from_numbers(self.sums.at(m));
             let alpha = of_s - rest;
             let (cos, sin) = (over_both.times(of_c), over_both.times(of_s));
             let rise = over_k.times(alpha);
-            let (row, place) = self.place(m, k);
+            let (row, place) = self.row_of_pack(m, k);
             store([rise, cos, sin, of_x, of_y], &mut self.rows[row], place);
             rise.store_quad(self.velocity.as_mut(), m);
             over_both.times(alpha).store_quad(self.theta.as_mut(), m);
 
-            // ω/k, ω (k+1)/k, ω (k+2)/k
+            // The products ω/k, ω (k+1)/k, ω (k+2)/k.
             let rate = over_k.times(velocity_0);
             let rate_1 = velocity_0 + rate;
             let slowing = rate_1 + rate;
@@ -190,8 +191,8 @@ where
         }
     }
 
-    /// Writes the angular velocities of order k and the angles of the next, and returns those
-    /// of order k.
+    /// Writes the coefficients of the angular velocities of order k and of the angles of order
+    /// k + 1. Returns both rows of order k.
     #[inline(always)]
     pub(super) fn write_coefficients<'c>(
         &mut self,
@@ -206,7 +207,7 @@ where
         [angles, velocities]
     }
 
-    /// Writes the angular velocities of the last order.
+    /// Writes the coefficients of the angular velocities of the last order.
     #[inline(always)]
     pub(super) fn write_last_velocities(
         &mut self,
@@ -215,7 +216,7 @@ where
         coefficients: &mut [T],
     ) {
         let n = self.links.count();
-        for m in 0..self.room.packs() {
+        for m in 0..self.buffer.packs() {
             let ([of_s], [rest]) = (self.s.at(m), self.s_rest.at(m));
             over_last
                 .times(of_s - rest)
@@ -225,13 +226,13 @@ where
         collect(self.velocity.as_mut(), velocities);
     }
 
-    /// Subtracts from X the bias of order k, at its angles and angular velocities.
+    /// Subtracts the bias of order k from X; `theta` and `omega` are the coefficients of order k.
     #[inline(always)]
     pub(super) fn take_bias(&mut self, k: usize, [theta, omega]: [&[T]; 2]) {
         if !self.bias.moves() {
             return;
         }
-        if B::TURNS {
+        if B::NEEDS_SINES {
             self.turn_back(k);
         }
         let known = KnownState {
@@ -243,18 +244,19 @@ where
         };
         let bias = self.quads.as_mut();
         self.bias.write(known, bias);
-        for m in 0..self.room.packs() {
+        for m in 0..self.buffer.packs() {
             let [of_x] = self.x.at(m);
             self.x.put(m, [of_x - P::load_quad(bias, m)]);
         }
     }
 
-    /// Forms the sines and cosines of order k from what they are in the directions at the start.
+    /// Computes the coefficients of order k of sin θ and cos θ from γ and σ, which are relative to
+    /// the angles at the start.
     #[inline(always)]
     fn turn_back(&mut self, k: usize) {
-        for m in 0..self.room.packs() {
-            let (row, place) = self.place(m, k - 1);
-            let [cos, sin] = turned::<T, P>(&self.rows[row], place);
+        for m in 0..self.buffer.packs() {
+            let (row, place) = self.row_of_pack(m, k - 1);
+            let [cos, sin] = sine_coefficients::<T, P>(&self.rows[row], place);
             let [c0, s0] = self.turn.at(m);
             let (upright, level) = (c0 * cos, c0 * sin);
             level
@@ -266,38 +268,40 @@ where
         }
     }
 
-    /// Forms S and Y of order k.
+    /// Computes the coefficients S and Y of order k.
     #[inline(always)]
     pub(super) fn solve<V: Simd<T>>(&mut self, k: usize) {
-        if let Some(fall) = self.bias.fall(k) {
+        if let Some(fall) = self.bias.acceleration_coefficients(k) {
             return self.solve_under::<V>(Some(fall));
         }
         let answers = [&mut self.s, &mut self.y];
         self.system
-            .solve::<P, V>(self.room.rest(), &self.x, &self.c, answers);
+            .solve::<P, V>(self.buffer.rest(), &self.x, &self.c, answers);
     }
 
-    /// Forms S and Y of an order in which the root's pivot has this acceleration.
+    /// Computes the coefficients S and Y of one order, given the coefficient `fall` of the
+    /// acceleration of the root's pivot.
     #[inline(always)]
     fn solve_under<V: Simd<T>>(&mut self, fall: Option<[T; 2]>) {
-        for m in 0..self.room.packs() {
+        for m in 0..self.buffer.packs() {
             let [across, _] = pull(fall, self.weight.at(m), self.turn.at(m));
             let [of_x] = self.x.at(m);
             self.force.put(m, [of_x - across]);
         }
         let answers = [&mut self.s, &mut self.y];
         self.system
-            .solve::<P, V>(self.room.rest(), &self.force, &self.c, answers);
-        for m in 0..self.room.packs() {
+            .solve::<P, V>(self.buffer.rest(), &self.force, &self.c, answers);
+        for m in 0..self.buffer.packs() {
             let [_, along] = pull(fall, self.weight.at(m), self.turn.at(m));
             let [of_links] = self.y.at(m);
             self.y.put(m, [of_links + along]);
         }
     }
 
-    /// Returns the row of a pack in an order, and the pack's place in that.
+    /// Returns the row that contains a pack of links in an order, and the index of the pack in that
+    /// row.
     #[inline(always)]
-    fn place(&self, pack: usize, order: usize) -> (usize, usize) {
+    fn row_of_pack(&self, pack: usize, order: usize) -> (usize, usize) {
         let packs_of_four = 4 / P::LANES;
         (
             pack / packs_of_four * self.count + order,
@@ -306,9 +310,9 @@ where
     }
 }
 
-/// Gravity is a constant force: its torque (G s₀ + F c₀) γ + (G c₀ − F s₀) σ, with
-/// s₀, c₀ of the angle at the start, is that of an X and of a Y of order 0. So is the
-/// acceleration of the root's pivot, of any order.
+/// Returns X and Y of order 0 that correspond to gravity: its torque (G s₀ + F c₀) γ + (G c₀ − F
+/// s₀) σ, with s₀, c₀ of the angle at the start. The acceleration of the root's pivot, of any
+/// order, has the same form.
 #[inline(always)]
 fn pull<T: Scalar, P: Simd<T>>(fall: Option<[T; 2]>, weight: [P; 2], [cos, sin]: [P; 2]) -> [P; 2] {
     let [of_sine, of_cosine] = weights(fall, weight);

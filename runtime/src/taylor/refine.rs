@@ -1,59 +1,60 @@
-//! The acceleration at the start once more, to its last digit.
+//! Iterative refinement of the accelerations at the start.
 //!
-//! At tolerances near rounding the rounding errors of the lowest orders are all that
-//! is left. One step of iterative refinement removes them where they come from: the
-//! equation of motion with the acceleration in it, in numbers of two parts, says
-//! what is wrong (Higham, *Accuracy and Stability of Numerical Algorithms*, 2nd
+//! At tolerances near rounding, the rounding errors of the lowest orders dominate. One step of
+//! iterative refinement removes them at their source: the residual of the equation of motion is
+//! computed in numbers of two parts (Higham, *Accuracy and Stability of Numerical Algorithms*, 2nd
 //! edition, SIAM 2002, section 12.1, with the residual in twice the precision).
 //!
-//! With U + iV = v (α + iω²), that is U = (sin θ)'' and V = −(cos θ)'', the pivots'
-//! accelerations a_c = a + (ℓ + i w) (U + iV), the forces F = (h + i e) (U + iV) + Σ F_c
-//! and the levers' product D + iE = (h − i e) a + Σ (ℓ − i w) F_c, sums over the
-//! children c, what is left of a link's equation is
+//! With U + iV = v (α + iω²), that is U = (sin θ)'' and V = −(cos θ)'', the pivots' accelerations
+//! a_c = a + (ℓ + i w) (U + iV), the forces F = (h + i e) (U + iV) + Σ F_c and the levers' product
+//! D + iE = (h − i e) a + Σ (ℓ − i w) F_c, sums over the children c, the residual of a link's
+//! equation is
 //!
 //! −bias − M α − (F + D) cos θ − (G + E) sin θ
 
+use super::buffer::{PackBuffer, PackColumn, SharedNumbers, read};
 use super::links::TreeLinks;
-use super::room::{PackColumn, PackRoom, SharedNumbers, read};
 use super::start::{Constants, Origin, weights};
 use crate::scalar::{Scalar, two_sum};
 use crate::simd::{Quad, Simd};
 
-/// The equation of motion at the start of an expansion.
+/// Equation of motion at the start of an expansion, whose residual is computed.
 pub(super) struct Balance<'a, T, L, S, C> {
     pub(super) links: L,
     pub(super) origin: Origin<'a, T, S>,
     pub(super) constants: Constants<'a, T>,
-    /// cos θ, sin θ of each pack.
+    /// Cosine and sine of the angles θ of each pack of links.
     pub(super) turn: &'a C,
-    /// Weights of each pack, and the acceleration that they are multiplied by.
+    /// Weights of each pack of links, and the acceleration that multiplies them.
     pub(super) weight: &'a C,
     pub(super) fall: Option<[T; 2]>,
 }
 
 impl<T: Scalar, L: TreeLinks, S: SharedNumbers<T>, C> Balance<'_, T, L, S, C> {
-    /// Writes what accelerations leave of the equation of motion, in the units of the
-    /// tree's constants. `quads` are worked in.
+    /// Writes the residual of the equation of motion for the given accelerations, in the units of
+    /// the tree's constants. `quads` is workspace.
     #[inline(always)]
-    pub(super) fn residual<P: Simd<T>, R: PackRoom<T>>(
+    pub(super) fn residual<P: Simd<T>, R: PackBuffer<T>>(
         &self,
-        room: &mut R,
+        buffer: &mut R,
         quads: &mut [Quad<T>],
         accelerations: &impl PackColumn<P, 1>,
         rest: &mut impl PackColumn<P, 1>,
     ) where
         C: PackColumn<P, 2>,
     {
-        let (zero, packs) = (P::splat(T::from_f64(0.0)), room.packs());
-        // ω, bias and M
-        let mut own = room.of_packs::<P, 3>();
+        let (zero, packs) = (P::splat(T::from_f64(0.0)), buffer.packs());
+        // Angular velocity ω, bias and M.
+        let mut own = buffer.of_packs::<P, 3>();
         let size = [packs, self.links.count()];
         read(self.origin.omega, quads, size, 0, &mut own);
         read(self.origin.bias, quads, size, 1, &mut own);
         read(self.constants.inertias, quads, size, 2, &mut own);
-        // U + iV
-        let (mut u_column, mut v_column) =
-            ([room.quads(), room.quads()], [room.quads(), room.quads()]);
+        // The complex number U + iV.
+        let (mut u_column, mut v_column) = (
+            [buffer.quads(), buffer.quads()],
+            [buffer.quads(), buffer.quads()],
+        );
         for m in 0..packs {
             let ([cos, sin], [omega, ..], [alpha]) =
                 (self.turn.at(m), own.at(m), accelerations.at(m));
@@ -63,7 +64,7 @@ impl<T: Scalar, L: TreeLinks, S: SharedNumbers<T>, C> Balance<'_, T, L, S, C> {
             u.store(&mut u_column, m);
             v.store(&mut v_column, m);
         }
-        self.levers::<P::One, R>(room, [&mut u_column, &mut v_column]);
+        self.levers::<P::One, R>(buffer, [&mut u_column, &mut v_column]);
         for m in 0..packs {
             let ([cos, sin], [_, bias, inertia], [alpha]) =
                 (self.turn.at(m), own.at(m), accelerations.at(m));
@@ -78,20 +79,20 @@ impl<T: Scalar, L: TreeLinks, S: SharedNumbers<T>, C> Balance<'_, T, L, S, C> {
         }
     }
 
-    /// Writes D + iE of all links in place of U + iV, along the tree.
+    /// Replaces U + iV of all links by D + iE, with one upward pass and one downward pass.
     #[inline(always)]
-    fn levers<P: Simd<T>, R: PackRoom<T>>(
+    fn levers<P: Simd<T>, R: PackBuffer<T>>(
         &self,
-        room: &mut R,
+        buffer: &mut R,
         [u_column, v_column]: [&mut [R::Quads; 2]; 2],
     ) {
         let (zero, links) = ([P::splat(T::from_f64(0.0)); COMPLEX], self.links);
         let (moments, attachments) = (self.constants.moments, self.constants.attachments);
         let lateral = links.lateral();
-        let mut fall = room.of_links::<P, COMPLEX>();
-        // Σ F_c
-        let mut pull = room.of_links::<P, COMPLEX>();
-        let mut lever = room.of_links::<P, COMPLEX>();
+        let mut fall = buffer.of_links::<P, COMPLEX>();
+        // The sums Σ F_c.
+        let mut pull = buffer.of_links::<P, COMPLEX>();
+        let mut lever = buffer.of_links::<P, COMPLEX>();
         for i in 0..links.count() {
             fall.put(i, zero);
             pull.put(i, zero);
@@ -123,7 +124,7 @@ impl<T: Scalar, L: TreeLinks, S: SharedNumbers<T>, C> Balance<'_, T, L, S, C> {
     }
 }
 
-/// `base` + (p + i q) x
+/// Returns `base` + (p + i q) x, for complex numbers in two parts.
 #[inline(always)]
 fn plus_turned<T: Scalar, P: Simd<T>>(
     base: [Parts<P>; 2],
@@ -142,16 +143,15 @@ fn plus_turned<T: Scalar, P: Simd<T>>(
     ]
 }
 
-/// Numbers in two parts. What products and sums lose is of the size of the second
-/// part's last digits where products are fused with the sums they go into; elsewhere
-/// products are rounded as they always are.
+/// A number as the sum of two parts. With fused multiply–add, products and sums are exact except
+/// for digits below the last ones of the second part; without it, products are rounded as usual.
 #[derive(Clone, Copy)]
 struct Parts<P> {
     high: P,
     low: P,
 }
 
-/// Numbers of a complex number in two parts.
+/// Number of values that a complex number in two parts takes.
 const COMPLEX: usize = 4;
 
 #[inline(always)]
@@ -206,7 +206,7 @@ impl<P: Scalar> Parts<P> {
         Self { high, low }
     }
 
-    /// a b
+    /// Returns the product a b.
     #[inline(always)]
     fn product(a: P, b: P) -> Self {
         let (high, zero) = (a * b, P::from_f64(0.0));
@@ -214,7 +214,7 @@ impl<P: Scalar> Parts<P> {
         Self { high, low }
     }
 
-    /// `self` + a x
+    /// Returns `self` + a x.
     #[inline(always)]
     fn plus_product(self, a: P, x: Self) -> Self {
         let Self { high, low } = Self::product(a, x.high);

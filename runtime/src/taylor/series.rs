@@ -1,19 +1,19 @@
-//! The series that an expansion keeps, and the sums of their products.
+//! Taylor series that an expansion stores, and sums of products of their coefficients.
 //!
 //! Order k of a product of series is a sum over the rows j and k − j.
 
 use crate::scalar::Scalar;
 use crate::simd::{Quad, Simd};
 
-/// Series that are kept: ω, γ, σ, X, Y.
+/// Number of stored series: ω, γ, σ, X, Y.
 pub(super) const SERIES: usize = 5;
 
-/// All series of four links in one order. Row r has order r of ω, r + 1 of γ and σ,
-/// r − 1 of X and Y, so that all sums of order k run over rows j and k − j. The rows of
-/// four links follow each other in memory, order by order.
+/// All series of four links in one order. Row r holds order r of ω, r + 1 of γ and σ, and r − 1 of
+/// X and Y, so that all sums of order k run over rows j and k − j. The rows of four links follow
+/// each other in memory, order by order.
 pub(super) type SeriesRow<T> = [Quad<T>; SERIES];
 
-/// Writes one number, or pack of numbers, of each series to a row.
+/// Writes one number, or one pack of numbers, of each series to a row of coefficients.
 #[inline(always)]
 pub(super) fn store<T: Scalar, P: Simd<T>>(
     values: [P; SERIES],
@@ -25,19 +25,19 @@ pub(super) fn store<T: Scalar, P: Simd<T>>(
     }
 }
 
-/// Number of [`SeriesSums`].
+/// Count of sums in [`SeriesSums`].
 pub(super) const SUMS: usize = 4;
 
-/// Sums of products in one order, over 0 < j < k.
+/// Sums of products of Taylor coefficients for order k, over 0 < j < k.
 #[derive(Clone, Copy)]
 pub(super) struct SeriesSums<P> {
-    /// Σ ω\[j\] γ\[k+1−j\]
+    /// The sum Σ ω\[j\] γ\[k+1−j\].
     pub(super) omega_cos: P,
-    /// Σ ω\[j\] σ\[k+1−j\]
+    /// The sum Σ ω\[j\] σ\[k+1−j\].
     pub(super) omega_sin: P,
-    /// Σ γ\[k+1−j\] X\[j−1\]
+    /// The sum Σ γ\[k+1−j\] X\[j−1\].
     cos_x: P,
-    /// Σ σ\[k+1−j\] Y\[j−1\]
+    /// The sum Σ σ\[k+1−j\] Y\[j−1\].
     sin_y: P,
 }
 
@@ -53,7 +53,7 @@ impl<P: Scalar> SeriesSums<P> {
         }
     }
 
-    /// Takes the sums from the numbers that [`numbers`](Self::numbers) returns.
+    /// Creates the sums from the array that [`numbers`](Self::numbers) returns.
     #[inline(always)]
     pub(super) fn from_numbers([omega_cos, omega_sin, cos_x, sin_y]: [P; SUMS]) -> Self {
         Self {
@@ -64,22 +64,22 @@ impl<P: Scalar> SeriesSums<P> {
         }
     }
 
-    /// Returns all of them, side by side.
+    /// Returns all sums as one array.
     #[inline(always)]
     pub(super) fn numbers(self) -> [P; SUMS] {
         [self.omega_cos, self.omega_sin, self.cos_x, self.sin_y]
     }
 
-    /// Σ σ Y − γ X
+    /// Returns Σ σ Y − γ X, the sum in the equation of X.
     #[inline(always)]
     pub(super) fn force(self) -> P {
         self.sin_y - self.cos_x
     }
 
-    /// Returns the sums over all `rows`, each with the one as far from the other end, from
-    /// the middle outwards: what was formed last is added last. There are two partial
-    /// sums of each, so that none waits for the other: for a single state, which waits for
-    /// results more than it computes.
+    /// Returns the sums over all `rows`. Row j is paired with row k − j, from the middle outwards,
+    /// so that the newest rows are added last. Each sum has two partial sums that do not wait for
+    /// each other: this is faster for a single state, which waits for results longer than it
+    /// computes.
     #[inline(always)]
     pub(super) fn of<T: Scalar>(rows: &[SeriesRow<T>], place: usize) -> Self
     where
@@ -89,11 +89,20 @@ impl<P: Scalar> SeriesSums<P> {
         let (middle, late) = rest.split_at(rest.len() - early.len());
         let [mut first, mut second] = [Self::none(); 2];
         for row in middle {
-            first.add(moved(row, place), turned(row, place));
+            first.add(
+                motion_coefficients(row, place),
+                sine_coefficients(row, place),
+            );
         }
         for (row, opposite) in early.iter().rev().zip(late) {
-            first.add(moved(row, place), turned(opposite, place));
-            second.add(moved(opposite, place), turned(row, place));
+            first.add(
+                motion_coefficients(row, place),
+                sine_coefficients(opposite, place),
+            );
+            second.add(
+                motion_coefficients(opposite, place),
+                sine_coefficients(row, place),
+            );
         }
         Self {
             omega_cos: first.omega_cos + second.omega_cos,
@@ -103,9 +112,9 @@ impl<P: Scalar> SeriesSums<P> {
         }
     }
 
-    /// Returns the sums of order k, the number of `rows` and odd, and those of order
-    /// k + 1 but for their terms with the newest row. What is loaded serves both: for
-    /// several states, which compute more than they wait.
+    /// Returns the sums of order k (which is odd and equals the number of `rows`), and the sums of
+    /// order k + 1 without their terms of the newest row. Both use each row while it is loaded,
+    /// which is faster for several states: their arithmetic takes longer than the loads.
     #[inline(always)]
     pub(super) fn pair<T: Scalar>(rows: &[SeriesRow<T>], place: usize) -> [Self; 2]
     where
@@ -115,28 +124,40 @@ impl<P: Scalar> SeriesSums<P> {
         let Some((newest, old)) = rows.split_last() else {
             return [now, next];
         };
-        // SeriesRow 0 has its terms elsewhere.
+        // The terms of row 0 are added elsewhere.
         let Some((_, [first, middle @ ..])) = old.split_first() else {
             return [now, next];
         };
-        let mut turned = turned(newest, place);
+        let mut turned = sine_coefficients(newest, place);
         for (row, opposite) in middle.iter().zip(middle.iter().rev()) {
-            let moved = moved(row, place);
+            let moved = motion_coefficients(row, place);
             next.add(moved, turned);
-            turned = self::turned(opposite, place);
+            turned = self::sine_coefficients(opposite, place);
             now.add(moved, turned);
         }
         if let Some(second) = middle.first() {
-            next.add(self::moved(newest, place), self::turned(second, place));
+            next.add(
+                self::motion_coefficients(newest, place),
+                self::sine_coefficients(second, place),
+            );
         } else {
-            next.add(self::moved(newest, place), self::turned(newest, place));
+            next.add(
+                self::motion_coefficients(newest, place),
+                self::sine_coefficients(newest, place),
+            );
         }
-        now.add(self::moved(first, place), self::turned(newest, place));
-        now.add(self::moved(newest, place), self::turned(first, place));
+        now.add(
+            self::motion_coefficients(first, place),
+            self::sine_coefficients(newest, place),
+        );
+        now.add(
+            self::motion_coefficients(newest, place),
+            self::sine_coefficients(first, place),
+        );
         [now, next]
     }
 
-    /// Adds the terms with the newest row.
+    /// Adds the terms that contain coefficients of the newest row.
     #[inline(always)]
     pub(super) fn complete<T: Scalar>(&mut self, rows: &[SeriesRow<T>], place: usize)
     where
@@ -146,13 +167,20 @@ impl<P: Scalar> SeriesSums<P> {
             return;
         };
         let newest = others.last().unwrap_or(first);
-        self.add(moved(first, place), turned(newest, place));
+        self.add(
+            motion_coefficients(first, place),
+            sine_coefficients(newest, place),
+        );
         if !others.is_empty() {
-            self.add(moved(newest, place), turned(first, place));
+            self.add(
+                motion_coefficients(newest, place),
+                sine_coefficients(first, place),
+            );
         }
     }
 
-    /// Adds the products of ω, X, Y of one row with γ, σ of another.
+    /// Adds the products of ω, X and Y of one row of coefficients with the cosine and sine (γ, σ)
+    /// of another row.
     #[inline(always)]
     fn add(&mut self, [omega, x, y]: [P; 3], [cos, sin]: [P; 2]) {
         self.omega_cos = self.omega_cos.plus_product(omega, cos);
@@ -162,15 +190,18 @@ impl<P: Scalar> SeriesSums<P> {
     }
 }
 
-/// ω, X, Y
+/// Returns the coefficients of ω, X and Y in a row.
 #[inline(always)]
-fn moved<T: Scalar, P: Simd<T>>([omega, _, _, x, y]: &SeriesRow<T>, place: usize) -> [P; 3] {
+fn motion_coefficients<T: Scalar, P: Simd<T>>(
+    [omega, _, _, x, y]: &SeriesRow<T>,
+    place: usize,
+) -> [P; 3] {
     [load(omega, place), load(x, place), load(y, place)]
 }
 
-/// γ, σ
+/// Returns the coefficients of γ and σ in a row.
 #[inline(always)]
-pub(super) fn turned<T: Scalar, P: Simd<T>>(
+pub(super) fn sine_coefficients<T: Scalar, P: Simd<T>>(
     [_, cos, sin, _, _]: &SeriesRow<T>,
     place: usize,
 ) -> [P; 2] {

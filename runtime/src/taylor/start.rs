@@ -1,43 +1,43 @@
-//! What an expansion starts from: the state, and the constants of the links.
+//! Start of an expansion: the initial state, and the constants of the links.
 
-use super::room::SharedNumbers;
+use super::buffer::SharedNumbers;
 use crate::scalar::Scalar;
 use crate::simd::Simd;
 
-/// State at which an expansion starts.
+/// State from which an expansion starts.
 #[derive(Clone, Copy, Debug)]
 pub struct Start<'a, T, const N: usize> {
-    /// Angles θ, rad.
+    /// Angles θ, in rad.
     pub theta: &'a [T; N],
-    /// Angular velocities ω, rad/s.
+    /// Angular velocities ω, in rad/s.
     pub omega: &'a [T; N],
-    /// sin θ.
+    /// Sines of the angles.
     pub sines: [T; N],
-    /// cos θ.
+    /// Cosines of the angles.
     pub cosines: [T; N],
-    /// Bias of the equation of motion, Σ M_ij α_j + … + bias_i = 0.
+    /// Bias of the equation of motion Σ M_ij α_j + … + bias_i = 0.
     pub bias: [T; N],
 }
 
-/// Constants of a tree's equation of motion, in any units of mass and length that
-/// go together.
+/// Constants of a tree's equation of motion, in any consistent units of mass and length.
 #[derive(Clone, Copy, Debug)]
 pub struct LinkConstants<T, const N: usize> {
-    /// M: the diagonal of the mass matrix.
+    /// Diagonal elements M_ii of the mass matrix.
     pub inertias: [T; N],
-    /// (h, e): the first moment, about the link's pivot, of the mass that the link
-    /// carries, along and across.
+    /// First moment (h, e) of the mass that the link carries, about the link's pivot, along and
+    /// across the link.
     pub moments: [[T; 2]; N],
-    /// (ℓ, w): where the link hangs on its parent, from the parent's pivot, along and
-    /// across. The root's does not count.
+    /// Position (ℓ, w) of the link's pivot relative to the parent's pivot, along and across the
+    /// parent; unused for the root.
     pub attachments: [[T; 2]; N],
-    /// G of the torque −G sin θ − F cos θ of gravity.
+    /// Coefficient G of the torque of gravity, −G sin θ − F cos θ.
     pub weights: [T; N],
-    /// F of the same.
+    /// Coefficient F of the torque of gravity, −G sin θ − F cos θ.
     pub lateral_weights: [T; N],
 }
 
-/// State at which an expansion starts, of all links: [`Start`].
+/// State of all links at the start of an expansion, with a number of links that need not be known
+/// at compile time; see [`Start`].
 #[derive(Clone, Copy)]
 pub(super) struct Origin<'a, T, S> {
     pub(super) omega: &'a [T],
@@ -46,7 +46,8 @@ pub(super) struct Origin<'a, T, S> {
     pub(super) bias: S,
 }
 
-/// Constants of all links: [`LinkConstants`].
+/// Constants of all links, with a number of links that need not be known at compile time; see
+/// [`LinkConstants`].
 #[derive(Clone, Copy)]
 pub(super) struct Constants<'a, T> {
     pub(super) inertias: &'a [T],
@@ -57,7 +58,7 @@ pub(super) struct Constants<'a, T> {
 }
 
 impl<T: Copy, S: SharedNumbers<T>> Origin<'_, T, S> {
-    /// Returns the first links' numbers, as many as the compiler may know them to be.
+    /// Restricts the state to the first `links` links; the compiler knows the length if possible.
     #[inline(always)]
     pub(super) fn first_links(self, links: usize) -> Self {
         Self {
@@ -70,7 +71,8 @@ impl<T: Copy, S: SharedNumbers<T>> Origin<'_, T, S> {
 }
 
 impl<T> Constants<'_, T> {
-    /// Returns the first links' numbers, as many as the compiler may know them to be.
+    /// Restricts the constants to the first `links` links; the compiler knows the length if
+    /// possible.
     #[inline(always)]
     pub(super) fn first_links(self, links: usize) -> Self {
         Self {
@@ -83,8 +85,8 @@ impl<T> Constants<'_, T> {
     }
 }
 
-/// Torques G sin θ + F cos θ, with G and F the weights (w, l) at the acceleration (x, y) of an
-/// order, w y − l x and w x + l y: at (0, 1) where there is none.
+/// Returns G and F of the torques G sin θ + F cos θ of gravity: w y − l x and w x + l y, for the
+/// weights (w, l) and the coefficient (x, y) of the acceleration, which is (0, 1) without `fall`.
 #[inline(always)]
 pub(super) fn weights<T: Scalar, P: Simd<T>>(fall: Option<[T; 2]>, weight: [P; 2]) -> [P; 2] {
     let Some(fall) = fall else { return weight };

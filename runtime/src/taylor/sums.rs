@@ -1,14 +1,13 @@
-//! Sums of products of series, for functions of the time.
+//! Sums of products of Taylor coefficients, for functions of time.
 
 use crate::scalar::Scalar;
 use crate::simd::Quad;
 
-/// The factors of the products of one order: left ones, right ones.
+/// Left and right factors of the products of one order.
 pub type Factors<T, const Q: usize> = [[Quad<T>; Q]; 2];
 
-/// Σ u\[j\] v\[k−j\] over 0 < j < k for each pair of factors u, v, of which row
-/// j − 1 holds the coefficients of order j. The terms with the newest
-/// coefficients are added last.
+/// Returns Σ u\[j\] v\[k−j\] over 0 < j < k for each pair of factors u, v. Row j − 1 holds the
+/// factors of order j. The terms with the newest coefficients are added last.
 ///
 /// Rows that do not exist count as zero.
 ///
@@ -44,8 +43,8 @@ pub fn sums<T: Scalar, const Q: usize>(k: usize, factors: &[Factors<T, Q>]) -> [
     sums
 }
 
-/// The first part of `work` as rows of factors for an expansion of so many
-/// `orders`, and what is left. If there is too little, none is left.
+/// Splits `work` into the rows of factors for an expansion of `orders` orders, and the rest. If
+/// `work` is too short, the rest is empty.
 #[must_use]
 pub fn rows<T, const Q: usize>(
     work: &mut [Quad<T>],
@@ -58,7 +57,7 @@ pub fn rows<T, const Q: usize>(
     (own.as_chunks_mut::<2>().0, left)
 }
 
-/// A whole number, exactly.
+/// Converts a whole number exactly.
 #[inline(always)]
 pub fn whole<T: Scalar>(k: usize) -> T {
     T::from_f64(k as f64)

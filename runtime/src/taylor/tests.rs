@@ -9,8 +9,8 @@ impl Connectivity<6> for Six {
     const LATERAL: bool = true;
 }
 
-/// A tree of six lopsided links, and a torque that depends on
-/// all there is.
+/// Returns the Taylor coefficients of a tree of six links with lateral offsets, and with a torque
+/// that depends on every quantity it can depend on.
 fn coefficients<T: Scalar>(orders: usize, state: impl Fn(usize) -> T) -> Vec<[[T; 6]; 2]> {
     let number = T::from_f64;
     let (theta, omega) = (
@@ -46,7 +46,7 @@ fn coefficients<T: Scalar>(orders: usize, state: impl Fn(usize) -> T) -> Vec<[[T
     rows
 }
 
-/// In every lane the coefficients are those of one state but for rounding.
+/// Checks that the coefficients in every lane are those of a single state, up to rounding.
 #[test]
 fn lanes_have_the_coefficients_of_one_state() {
     let angle = |i: usize, lane: usize| (0.7 * i as f64 + 1.9 * lane as f64).sin();

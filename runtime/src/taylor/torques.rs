@@ -1,36 +1,38 @@
-//! What acts on the links of a tree beside gravity, order by order: friction, drag and
-//! springs of links, what acts between them, and a drive.
+//! Taylor coefficients of all torques on a tree's links except gravity: friction, drag and springs
+//! of links, spring-dampers and lines between links, and a drive.
 
 use super::bias::{Bias, KnownState};
-use super::lines::{LineSeries, line_room};
+use super::lines::{LineSeries, line_buffer_len};
 use super::links::TreeLinks;
 use super::tree::SeriesTree;
 use crate::scalar::Scalar;
 use crate::simd::Quad;
 
-/// What acts on a tree in an expansion.
+/// Computes the torques on a tree, order by order, in an expansion.
 pub(super) struct TreeTorques<'a, T> {
     pub(super) tree: &'a SeriesTree<T>,
-    /// Of each order the acceleration of the root's pivot and the torque on the root.
+    /// For each order, the coefficients of the acceleration of the root's pivot and of the torque
+    /// on the root.
     pub(super) drive: Option<&'a [Quad<T>]>,
-    /// Room of the laws of friction, one after the other.
+    /// Workspace of all friction laws, one after the other.
     pub(super) laws: &'a mut [Quad<T>],
-    /// How many quads each has.
-    pub(super) room: usize,
-    /// Room of the lines between points, one after the other.
+    /// Workspace length of each friction law, in quads.
+    pub(super) buffer: usize,
+    /// Workspace of all lines between points, one after the other.
     pub(super) lines: &'a mut [Quad<T>],
-    /// The last order.
+    /// Last order.
     pub(super) last: usize,
 }
 
 impl<T: Scalar> TreeTorques<'_, T> {
-    /// Writes the bias at the start.
+    /// Writes the bias (order 0 of the torques) at the start.
     #[inline(always)]
     pub(super) fn start(&mut self, [theta, omega]: [&[T]; 2], bias: &mut [Quad<T>]) {
         self.add::<true>(0, [theta, omega], bias);
     }
 
-    /// Writes the coefficients of one order; of order 0 `START` is true.
+    /// Adds the coefficients of one order of the torques to `bias`. `START` must be true for
+    /// order 0.
     #[inline(always)]
     fn add<const START: bool>(
         &mut self,
@@ -40,7 +42,7 @@ impl<T: Scalar> TreeTorques<'_, T> {
     ) {
         let (tree, links) = (self.tree, &*self.tree.hanging);
         bias.fill(Quad::splat(T::from_f64(0.0)));
-        // Torques that are opposed to the motion are positive.
+        // Torques against the motion count as positive.
         let mut oppose = |link: usize, torque: T| {
             let own = &mut bias[link / 4].0[link % 4];
             *own = *own + torque;
@@ -70,14 +72,18 @@ impl<T: Scalar> TreeTorques<'_, T> {
             oppose(a, torque);
             oppose(b, -torque);
         }
-        for (law, room) in tree.rough.iter().zip(self.laws.chunks_exact_mut(self.room)) {
+        for (law, buffer) in tree
+            .rough
+            .iter()
+            .zip(self.laws.chunks_exact_mut(self.buffer))
+        {
             let rate = match law.other {
                 None => omega[law.link],
                 Some(other) => omega[law.link] - omega[other],
             };
             let torque = match START {
-                true => law.start(rate, room),
-                false => law.order(order, rate, room),
+                true => law.start(rate, buffer),
+                false => law.order(order, rate, buffer),
             };
             oppose(law.link, torque);
             if let Some(other) = law.other {
@@ -86,9 +92,9 @@ impl<T: Scalar> TreeTorques<'_, T> {
         }
         let mut free = &mut *self.lines;
         for line in &tree.lines {
-            let (room, rest) = free.split_at_mut(line_room(line, self.last));
+            let (buffer, rest) = free.split_at_mut(line_buffer_len(line, self.last));
             let last = self.last;
-            let mut series = LineSeries { line, room, last };
+            let mut series = LineSeries { line, buffer, last };
             series.write::<START>(order, [theta, omega]);
             for (arm, own) in line.arms.iter().enumerate() {
                 oppose(own.link, series.torque(arm, order));
@@ -102,7 +108,7 @@ impl<T: Scalar> TreeTorques<'_, T> {
 }
 
 impl<T: Scalar> Bias<T> for TreeTorques<'_, T> {
-    const TURNS: bool = false;
+    const NEEDS_SINES: bool = false;
 
     #[inline(always)]
     fn moves(&self) -> bool {
@@ -128,7 +134,7 @@ impl<T: Scalar> Bias<T> for TreeTorques<'_, T> {
     }
 
     #[inline(always)]
-    fn fall(&self, order: usize) -> Option<[T; 2]> {
+    fn acceleration_coefficients(&self, order: usize) -> Option<[T; 2]> {
         let Quad([x, y, _, _]) = self.drive?.get(order)?;
         Some([*x, *y])
     }

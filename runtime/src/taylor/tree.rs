@@ -1,72 +1,71 @@
-//! Trees whose number of links no type tells.
+//! Constants for Taylor expansions of trees whose number of links is not a compile-time constant.
 
 use alloc::sync::Arc;
 use alloc::vec::Vec;
 
-use super::friction::RoughFriction;
+use super::friction::NonViscousFriction;
 use super::links::TreeLinks;
 use crate::scalar::Scalar;
 use crate::spring_dampers::SpringDamper;
 use crate::translational::TranslationalSpringDamper;
 
-/// A link of a tree as the recurrences of Taylor coefficients take it, in any units of mass
-/// and length that go together.
+/// Constants of a link in the Taylor recurrences, in any consistent units of mass and length.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SeriesLink<T> {
-    /// Number of the parent, which comes before the link. The root's does not count.
+    /// Index of the parent. Parents come before their children; the value is ignored for the root.
     pub parent: usize,
-    /// M: the diagonal of the mass matrix.
+    /// Diagonal entry M of the mass matrix.
     pub inertia: T,
-    /// (h, e): the first moment, about the link's pivot, of the mass that the link
-    /// carries, along and across.
+    /// First moment (h, e) of the mass that the link carries, about the link's pivot, along and
+    /// across the link.
     pub moment: [T; 2],
-    /// (ℓ, w): where the link hangs on its parent, from the parent's pivot, along and
-    /// across. The root's does not count.
+    /// Position (ℓ, w) of the link's pivot relative to the parent's pivot, along and across the
+    /// parent; unused for the root.
     pub attachment: [T; 2],
-    /// G and F of the torque −G sin θ − F cos θ of gravity; of a tree whose root's pivot is
-    /// moved those at a gravity of one.
+    /// Coefficients G and F of the torque of gravity, −G sin θ − F cos θ. If the root's pivot is
+    /// driven, they are torques at a gravity of 1.
     pub weight: [T; 2],
-    /// Viscous friction in the pivot, on the rate relative to the parent.
+    /// Coefficient of viscous friction in the pivot, on the rate relative to the parent.
     pub friction: T,
-    /// Viscous drag on the link's own rate.
+    /// Coefficient of viscous drag on the link's absolute rate.
     pub drag: T,
     /// Stiffness of the spring in the pivot.
     pub spring: T,
-    /// Relative angle at which it is at rest, rad.
+    /// Relative angle at which the spring is relaxed, in rad.
     pub rest: T,
 }
 
-/// Constants of the equation of motion of a tree of any number of links, as the recurrences
-/// of Taylor coefficients take them.
+/// Constants of the equation of motion of a tree with any number of links, in the form that the
+/// Taylor recurrences use.
 #[derive(Clone, Debug)]
 pub struct SeriesTree<T> {
-    pub(super) hanging: Arc<Hanging>,
+    pub(super) hanging: Arc<Topology>,
     pub(super) inertias: Vec<T>,
     pub(super) moments: Vec<[T; 2]>,
     pub(super) attachments: Vec<[T; 2]>,
     pub(super) weights: Vec<T>,
     pub(super) lateral_weights: Vec<T>,
-    /// Friction, drag, spring and rest of each link, if any has some.
+    /// Friction, drag, spring stiffness and rest angle of each link; empty if all are zero.
     pub(super) passive: Vec<[T; 4]>,
     /// Springs and viscous friction between links that are not parent and child.
     pub(super) spring_dampers: Vec<SpringDamper<T>>,
-    /// What acts along lines between points.
+    /// Springs, repulsions and dampers along lines between points.
     pub(super) lines: Vec<TranslationalSpringDamper<T>>,
-    pub(super) rough: Vec<RoughFriction<T>>,
-    /// What torques are multiplied by.
+    pub(super) rough: Vec<NonViscousFriction<T>>,
+    /// Factor that converts torques from N m to the units of the links.
     pub(super) share: T,
 }
 
-/// How the links of a tree hang on each other.
+/// Topology of a tree: parents, links with children, leaves.
 #[derive(Debug)]
-pub(super) struct Hanging {
+pub(super) struct Topology {
     parents: Vec<usize>,
     leaves: Vec<usize>,
     carriers: Vec<usize>,
     lateral: bool,
 }
 
-impl TreeLinks for &Hanging {
+impl TreeLinks for &Topology {
     #[inline(always)]
     fn count(&self) -> usize {
         self.parents.len()
@@ -93,25 +92,25 @@ impl TreeLinks for &Hanging {
     }
 }
 
-/// What [`SeriesTree`] is asked to hold of a tree beside its links.
+/// Tells which optional parts of a tree [`SeriesTree`] has to store.
 #[derive(Clone, Copy, Debug)]
 pub struct SeriesForm {
-    /// True if some centre of mass or pivot lies aside of a link's axis.
+    /// True if a centre of mass or a pivot lies off a link's axis.
     pub lateral: bool,
-    /// True if some link has friction or drag that is viscous, or a spring.
+    /// True if a link has viscous friction, drag or a spring.
     pub passive: bool,
 }
 
 impl<T: Scalar> SeriesTree<T> {
-    /// Returns the tree of these links, the root first and parents before their children.
-    /// `share` is what torques in N m are multiplied by to be in the units of the links.
+    /// Creates the tree of these links, the root first and parents before their children. `share`
+    /// is the factor that converts torques in N m to the units of the links.
     ///
-    /// Links of parents that come behind them, and friction of links that there are not, are
-    /// as if they hung on the root, and left out.
+    /// A link whose parent comes after it is attached to the root; friction of links that do not
+    /// exist is ignored.
     #[must_use]
     pub fn new(
         links: &[SeriesLink<T>],
-        rough: Vec<RoughFriction<T>>,
+        rough: Vec<NonViscousFriction<T>>,
         share: T,
         SeriesForm { lateral, passive }: SeriesForm,
     ) -> Self {
@@ -120,7 +119,7 @@ impl<T: Scalar> SeriesTree<T> {
             .map(|(link, own)| if own.parent < link { own.parent } else { 0 })
             .collect();
         let mut carries = alloc::vec![false; links.len()];
-        // The root hands nothing on, as one that carries the others.
+        // The root passes nothing on, but belongs to the links with children.
         if let Some(root) = carries.first_mut() {
             *root = true;
         }
@@ -131,7 +130,7 @@ impl<T: Scalar> SeriesTree<T> {
             let links = (0..links.len()).rev();
             links.filter(|link| carries[*link] == this).collect()
         };
-        let hanging = Hanging {
+        let hanging = Topology {
             leaves: listed(false),
             carriers: listed(true),
             parents,
@@ -155,8 +154,8 @@ impl<T: Scalar> SeriesTree<T> {
         }
     }
 
-    /// Returns the tree with springs and friction between links that are not parent and child, in
-    /// the units of the links; those between links that there are not are left out.
+    /// Adds springs and friction between links that are not parent and child, in the units of the
+    /// links. Entries of links that do not exist are ignored.
     #[must_use]
     pub fn with_spring_dampers(mut self, spring_dampers: Vec<SpringDamper<T>>) -> Self {
         let count = self.inertias.len();
@@ -165,21 +164,16 @@ impl<T: Scalar> SeriesTree<T> {
             if link.max(other) >= count {
                 continue;
             }
-            let law = own.law.map(|[coulomb, quadratic, width]| RoughFriction {
-                link,
-                other: Some(other),
-                coulomb,
-                quadratic,
-                width,
-            });
-            self.rough.extend(law);
+            let other = Some(other);
+            let rough = own.law.map(|law| NonViscousFriction { link, other, law });
+            self.rough.extend(rough);
             self.spring_dampers.push(own);
         }
         self
     }
 
-    /// Returns the tree with what acts along lines between points, with lengths in m and torques
-    /// in the units of the links; lines with arms of links that there are not are left out.
+    /// Adds springs, repulsions and dampers along lines between points, with lengths in m and
+    /// torques in the units of the links. Lines on links that do not exist are ignored.
     #[must_use]
     pub fn with_lines(mut self, lines: Vec<TranslationalSpringDamper<T>>) -> Self {
         let count = self.inertias.len();
@@ -189,7 +183,7 @@ impl<T: Scalar> SeriesTree<T> {
         self
     }
 
-    /// Takes every constant through `convert`.
+    /// Converts every constant with `convert`.
     pub fn cast<S: Scalar>(&self, convert: impl Fn(T) -> S) -> SeriesTree<S> {
         let pairs = |pairs: &[[T; 2]]| pairs.iter().map(|pair| pair.map(&convert)).collect();
         let numbers = |numbers: &[T]| numbers.iter().copied().map(&convert).collect();
@@ -214,7 +208,7 @@ impl<T: Scalar> SeriesTree<T> {
     }
 }
 
-/// Returns true for friction of links of a tree of so many.
-fn is_of<T>(law: &RoughFriction<T>, count: usize) -> bool {
+/// Returns true if all links of a friction law exist in a tree of `count` links.
+fn is_of<T>(law: &NonViscousFriction<T>, count: usize) -> bool {
     law.link < count && law.other.is_none_or(|other| other < count)
 }

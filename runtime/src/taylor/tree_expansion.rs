@@ -1,36 +1,41 @@
-//! Expansions of trees whose number of links no type tells.
+//! Taylor expansions of trees whose number of links is not a compile-time constant.
 
+use super::buffer::FewLinkBuffers;
+use super::caller_buffers::{CallerBuffers, buffer_quads};
 use super::expand::{Expansion, workspace};
-use super::friction::law_room;
-use super::lent::{LentRooms, lent};
-use super::lines::line_room;
+use super::friction::law_buffer_len;
+use super::lines::line_buffer_len;
 use super::links::TreeLinks;
-use super::room::RoomsOfFew;
 use super::start::{Constants, Origin};
 use super::torques::TreeTorques;
-use super::tree::{Hanging, SeriesTree};
+use super::tree::{SeriesTree, Topology};
 use crate::scalar::Scalar;
 use crate::scalar::kind::ByKind;
 use crate::simd::{Kernel, Quad, Simd};
 
 impl<T: Scalar> SeriesTree<T> {
-    /// Returns the number of quads that [`expand`](Self::expand) works in, to order `order`.
+    /// Returns the number of quads of workspace that [`expand`](Self::expand) needs to order
+    /// `order`.
     #[must_use]
     pub fn workspace(&self, order: usize) -> usize {
         let links = self.inertias.len();
-        let laws = self.rough.len() * law_room(order);
-        let lines = self.lines.iter().map(|line| line_room(line, order));
-        workspace(links, order) + lent(links) + 3 * links.div_ceil(4) + laws + lines.sum::<usize>()
+        let laws = self.rough.len() * law_buffer_len(order);
+        let lines = self.lines.iter().map(|line| line_buffer_len(line, order));
+        workspace(links, order)
+            + buffer_quads(links)
+            + 3 * links.div_ceil(4)
+            + laws
+            + lines.sum::<usize>()
     }
 
-    /// Writes the Taylor coefficients of the motion through angles `theta` and angular
-    /// velocities `omega`, order by order: those of the angles, then those of the angular
+    /// Writes the Taylor coefficients of the motion through angles `theta` and angular velocities
+    /// `omega`. For each order these are the coefficients of the angles, then of the angular
     /// velocities.
     ///
-    /// `drive` has for each order the acceleration of the root's pivot, across and along the
-    /// direction of gravity, with gravity in order 0, and the torque on the root in N m, if
-    /// there is a drive; [`SeriesLink::weight`](super::SeriesLink::weight) is at a gravity of one
-    /// then. Where lengths do not fit, all coefficients are NaN.
+    /// If the tree is driven, `drive` has, for each order, the coefficients of the acceleration of
+    /// the root's pivot, across and along the direction of gravity (with gravity in order 0), and
+    /// the torque on the root in N m; [`SeriesLink::weight`](super::SeriesLink::weight) is then a
+    /// torque at a gravity of 1. If a length does not fit, all coefficients are NaN.
     #[inline(always)]
     pub fn expand(
         &self,
@@ -52,7 +57,7 @@ impl<T: Scalar> SeriesTree<T> {
         }
         let mut halves = coefficients.chunks_exact_mut(links);
         for angles in [theta, omega] {
-            // Velocities of order 1 follow.
+            // The velocities of order 1 follow later.
             if let (Some(own), Some(next)) = (halves.next(), halves.next()) {
                 own.copy_from_slice(angles);
                 next.copy_from_slice(omega);
@@ -60,17 +65,17 @@ impl<T: Scalar> SeriesTree<T> {
         }
         let (work, rest) = work.split_at_mut(workspace(links, order));
         let quads = links.div_ceil(4);
-        let (free, rest) = rest.split_at_mut(lent(links));
+        let (free, rest) = rest.split_at_mut(buffer_quads(links));
         let (sines, rest) = rest.split_at_mut(quads);
         let (cosines, rest) = rest.split_at_mut(quads);
         let (first, rest) = rest.split_at_mut(quads);
-        let (laws, lines) = rest.split_at_mut(self.rough.len() * law_room(order));
-        turn(theta, sines, cosines);
+        let (laws, lines) = rest.split_at_mut(self.rough.len() * law_buffer_len(order));
+        write_sines(theta, sines, cosines);
         let mut torques = TreeTorques {
             tree: self,
             drive,
             laws,
-            room: law_room(order),
+            buffer: law_buffer_len(order),
             lines,
             last: order,
         };
@@ -93,7 +98,7 @@ impl<T: Scalar> SeriesTree<T> {
             coefficients,
             count,
         };
-        T::by_kind(InRooms {
+        T::by_kind(InBuffers {
             expansion,
             free,
             work,
@@ -102,36 +107,36 @@ impl<T: Scalar> SeriesTree<T> {
     }
 }
 
-/// Runs an expansion in the room that serves its numbers.
-struct InRooms<'a, 'w, T> {
-    expansion: Expansion<'w, T, &'a Hanging, &'w [Quad<T>]>,
+/// Runs an expansion in the kind of workspace that suits its number type.
+struct InBuffers<'a, 'w, T> {
+    expansion: Expansion<'w, T, &'a Topology, &'w [Quad<T>]>,
     free: &'w mut [Quad<T>],
     work: &'w mut [Quad<T>],
     torques: TreeTorques<'w, T>,
 }
 
-impl<T: Scalar> ByKind<T> for InRooms<'_, '_, T> {
+impl<T: Scalar> ByKind<T> for InBuffers<'_, '_, T> {
     type Output = ();
 
     #[inline(always)]
     fn of_any(self) {
         let links = self.expansion.links.count();
-        // Few plain numbers lie in registers. Others are too many for these, and compiling room
-        // for few of them apart would take twice the time.
+        // A few plain numbers fit into registers. Wider numbers do not, and compiling a separate
+        // workspace for few of them would take twice the time.
         if const { size_of::<T>() <= size_of::<f64>() } {
             match links {
                 1..=4 => {
-                    let rooms = RoomsOfFew::<4, 1> { links };
-                    self.expansion.run(rooms, self.work, self.torques);
+                    let buffers = FewLinkBuffers::<4, 1> { links };
+                    self.expansion.run(buffers, self.work, self.torques);
                 }
                 5..=8 => {
-                    let rooms = RoomsOfFew::<8, 2> { links };
-                    self.expansion.run(rooms, self.work, self.torques);
+                    let buffers = FewLinkBuffers::<8, 2> { links };
+                    self.expansion.run(buffers, self.work, self.torques);
                 }
-                _ => self.in_lent_room(),
+                _ => self.in_caller_buffer(),
             }
         } else {
-            self.in_lent_room();
+            self.in_caller_buffer();
         }
     }
 
@@ -144,30 +149,30 @@ impl<T: Scalar> ByKind<T> for InRooms<'_, '_, T> {
     }
 }
 
-/// For many states at once: in a function of its own, since compiling one takes longer than in
-/// proportion to its length, and steps in lanes are long.
-impl<W, T: Scalar> Kernel<W> for InRooms<'_, '_, T> {
+/// Runs the expansion of many states at once. This is a separate function because steps in lanes
+/// are long, and compile time grows faster than the length of a function.
+impl<W, T: Scalar> Kernel<W> for InBuffers<'_, '_, T> {
     type Output = ();
 
     #[inline(always)]
     fn run<V: Simd<W>>(self) {
-        self.in_lent_room();
+        self.in_caller_buffer();
     }
 }
 
-impl<T: Scalar> InRooms<'_, '_, T> {
+impl<T: Scalar> InBuffers<'_, '_, T> {
     #[inline(always)]
-    fn in_lent_room(self) {
+    fn in_caller_buffer(self) {
         let links = self.expansion.links.count();
         let free = self.free;
-        let rooms = LentRooms { free, links };
-        self.expansion.run(rooms, self.work, self.torques);
+        let buffers = CallerBuffers { free, links };
+        self.expansion.run(buffers, self.work, self.torques);
     }
 }
 
-/// Writes sines and cosines of all links, zeros where there is no link.
+/// Writes sines and cosines of all links' angles to quads, padded with zeros.
 #[inline(always)]
-fn turn<T: Scalar>(theta: &[T], sines: &mut [Quad<T>], cosines: &mut [Quad<T>]) {
+fn write_sines<T: Scalar>(theta: &[T], sines: &mut [Quad<T>], cosines: &mut [Quad<T>]) {
     for ((four, sines), cosines) in theta.chunks(4).zip(sines).zip(cosines) {
         let mut angles = [T::from_f64(0.0); 4];
         for (angle, own) in angles.iter_mut().zip(four) {

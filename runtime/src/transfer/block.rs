@@ -1,18 +1,19 @@
-//! What one sector is by itself: its block of the mass matrix and its potential energy.
+//! Block of the mass matrix and potential energy of a single sector.
 
 use super::chords::Chords;
 use super::constants::MassConstants;
 use super::memory::FreeMemory;
-use super::pattern::{Entries, Pattern};
+use super::pattern::{Entries, MatrixPattern};
 use super::shape::BlockShape;
 use super::springs::SectorSprings;
 use crate::scalar::{Scalar, at};
 
 impl BlockShape {
-    /// Writes the block B_s = J_sᵀ M J_s.
+    /// Writes the sector's block B_s = J_sᵀ M J_s of the mass matrix, where J_s contains the
+    /// weights of the sector's coordinates.
     pub(super) fn write<T: Scalar>(
         &self,
-        tree: &Pattern,
+        tree: &MatrixPattern,
         inertia: &[T],
         beside: &[T],
         block: &mut Entries<'_, T>,
@@ -25,19 +26,19 @@ impl BlockShape {
             });
             for (step, (place, _)) in self.pattern.upwards(index).enumerate() {
                 let squares = column.iter();
-                // A link and those above it have one weight in a sector.
+                // Within a sector, a link and its ancestors have the same weight.
                 block.beside[place] = squares.fold(zero, |sum, (link, weight): (usize, T)| {
-                    sum + weight * weight * beside[tree.place(link, step)]
+                    sum + weight * weight * beside[tree.entry_index(link, step)]
                 });
             }
         }
     }
 
-    /// Writes the angular velocities x = J_s B_s⁻¹ p_s of the links of the sector that its
-    /// momenta alone have, and returns p_sᵀ B_s⁻¹ p_s.
+    /// Writes the angular velocities x = J_s B_s⁻¹ p_s that the sector's momenta p_s alone cause,
+    /// for the sector's links; returns p_sᵀ B_s⁻¹ p_s.
     pub(super) fn write_velocities<T: Scalar>(
         &self,
-        tree: &Pattern,
+        tree: &MatrixPattern,
         [inertia, beside]: [&[T]; 2],
         momenta: &[T],
         mut memory: FreeMemory<'_, T>,
@@ -62,9 +63,9 @@ impl BlockShape {
         pairs.fold(T::from_f64(0.0), |sum, (&p, &u)| sum + p * u)
     }
 
-    /// Writes the slopes of the potential energy V_s by the angles of the sector's links
-    /// (physics (9.3)), and returns V_s.
-    pub(super) fn write_fall<T: Scalar>(
+    /// Writes the derivatives of the sector's potential energy V_s by the angles of its links
+    /// (physics (9.3)); returns V_s.
+    pub(super) fn write_potential_slopes<T: Scalar>(
         &self,
         constants: &MassConstants<T>,
         (springs, chords): (&SectorSprings<T>, &Chords<T>),
@@ -86,7 +87,7 @@ impl BlockShape {
             let one = T::from_f64(if self.is_mean { 1.0 } else { 0.0 });
             let rise = column.sum(|link| one - cosines[link]);
             let sine = column.sum(|link| sines[link]);
-            let weight = match chords.beside_gravity(coordinate) {
+            let weight = match chords.spring_term(coordinate) {
                 Some(chord) => (constants.gravity[first] + chord) * share,
                 None => constants.gravity[first] * share,
             };
@@ -108,7 +109,7 @@ impl BlockShape {
             let Some(&spring) = constants.spring.get(first) else {
                 continue;
             };
-            // Copies under one link differ by their own angles alone.
+            // Copies under one link differ only by their own angles.
             let above = |link: usize| match parents[link] {
                 Some(parent) if column.is_below => theta[parent],
                 _ => zero,
@@ -128,6 +129,6 @@ impl BlockShape {
                 }
             }
         }
-        energy + springs.add_fall(self, theta, slopes)
+        energy + springs.add_slopes(self, theta, slopes)
     }
 }

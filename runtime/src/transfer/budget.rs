@@ -1,45 +1,48 @@
-//! Energies of sectors by each definition, and what changes them (physics (9.4) to (9.9)).
+//! Energies of sectors in each definition, and their rates (physics (9.4) to (9.9)).
 
 use alloc::vec::Vec;
 
 use super::forces::NonConservative;
 use super::memory::FreeMemory;
-use super::motion::{MassEntries, TreeMotion, factors, room};
+use super::motion::{MassEntries, TreeMotion, factors, workspace_len};
 use super::parseval::{CENTRES, Centres, FORMED, KEPT};
 use super::pattern::write_slopes;
 use super::sector::{self, Alone, Surroundings};
 use super::shape::BlockShape;
-use super::{Given, SymmetricTree};
+use super::{StateInput, SymmetricTree};
 use crate::scalar::Scalar;
 use crate::system::Workspace;
 
-/// Kinetic energy of a sector, by what is known of its motion.
+/// Definition of the kinetic energy of a sector.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum EnergyDefinition {
-    /// ½ p_sᵀ B_s(0)⁻¹ p_s, from its momenta and its block of the mass matrix at rest.
+    /// Computed from the sector's momenta p_s and its block B_s of the mass matrix at rest: ½ p_sᵀ
+    /// B_s(0)⁻¹ p_s.
     Rest,
-    /// ½ p_sᵀ B_s(θ)⁻¹ p_s, with the block at the configuration: the paper's H_d where the
-    /// sector has one coordinate.
+    /// Computed from the sector's momenta p_s and its block B_s of the mass matrix at the current
+    /// angles: ½ p_sᵀ B_s(θ)⁻¹ p_s. It is the paper's H_d if the sector has one coordinate.
     Canonical,
-    /// By Parseval, from the velocities of the centres of mass: the energies sum to H.
+    /// Computed from the velocities of the centres of mass by Parseval's identity: the energies of
+    /// all sectors sum to H.
     Parseval,
-    /// ½ ω_sᵀ B_s(θ) ω_s, from its velocities.
+    /// Computed from the sector's velocities ω_s and its block B_s of the mass matrix: ½ ω_sᵀ
+    /// B_s(θ) ω_s.
     Velocity,
 }
 
-/// Energies of sectors and what changes them: dE/dt = transfer + power.
+/// Energies E of all sectors and their rates of change: dE/dt = transfer + power.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct SectorBudget<T> {
-    /// E_s, in joules.
+    /// Energies E_s, in J.
     pub energies: Vec<T>,
-    /// W_s, what other sectors give, in watts.
+    /// Energy transfers W_s from all other sectors into each sector, in W.
     pub transfers: Vec<T>,
-    /// P_s, what other forces give, in watts; negative where they take.
+    /// Powers P_s of non-conservative forces on each sector, in W; negative if they remove energy.
     pub powers: Vec<T>,
 }
 
 impl<T> SectorBudget<T> {
-    /// A budget of no sectors.
+    /// Creates a budget without sectors.
     #[must_use]
     pub const fn new() -> Self {
         Self {
@@ -49,7 +52,7 @@ impl<T> SectorBudget<T> {
         }
     }
 
-    /// Makes room for so many sectors, of which nothing is known.
+    /// Resizes the budget to the given number of sectors, and sets all numbers to NaN.
     fn reset(&mut self, sectors: usize)
     where
         T: Scalar,
@@ -61,36 +64,36 @@ impl<T> SectorBudget<T> {
     }
 }
 
-/// A sector's energy, transfer and power.
+/// Energy, transfer and power of a sector.
 type Entry<T> = [T; 3];
 
-/// What the shares of all sectors are formed of.
+/// Quantities of the whole tree from which the entries of all sectors are computed.
 struct Around<'a, T> {
     surroundings: Surroundings<'a, T>,
-    /// Accelerations that conservative forces give, and what the others add to them.
+    /// Accelerations caused by springs and gravity, and those that the other forces add.
     accelerations: [&'a [T]; 2],
     forces: &'a [T],
 }
 
 impl<T: Scalar> SymmetricTree<T> {
-    /// Computes the energies of all sectors, transfers into them and the powers of what acts
-    /// besides, without truncation. Of a tree whose copies differ, energies from momenta or
-    /// velocities are those of the mean tree (physics section 14); there are none by Parseval.
+    /// Computes the energies of all sectors, the transfers into them and the powers of the `acting`
+    /// forces, without truncation. If copies differ, energies from momenta or velocities are those
+    /// of the mean tree (physics section 14), and those by Parseval are NaN.
     ///
-    /// NaN for slices of another length than there are links. Allocates the first time.
+    /// NaN if a slice does not have one number per link. Allocates at the first call.
     pub fn budget(
         &self,
         workspace: &mut Workspace<T>,
         definition: EnergyDefinition,
         acting: &[NonConservative<'_, T>],
-        given: Given<'_, T>,
+        given: StateInput<'_, T>,
         budget: &mut SectorBudget<T>,
     ) {
         let shape = &*self.shape;
         let (links, entries) = (shape.links(), shape.pattern.entries());
         let kept = (5 + CENTRES + KEPT + FORMED) * links;
-        let others = 2 * entries + sector::room(shape.largest_block(), links);
-        let length = room(links, entries) + kept + others + factors(links, entries);
+        let others = 2 * entries + sector::workspace_len(shape.largest_block(), links);
+        let length = workspace_len(links, entries) + kept + others + factors(links, entries);
         let mut memory = FreeMemory(workspace.numbers(length));
         budget.reset(shape.blocks.len());
         let is_uneven = self.mean.is_some() && definition == EnergyDefinition::Parseval;
@@ -147,13 +150,14 @@ impl<T: Scalar> SymmetricTree<T> {
         }
     }
 
-    /// Writes the transfer matrix (W) row by row: entry (s, r) is what sector r gives sector s,
-    /// energies by Parseval. Antisymmetric to the last bit; row s sums to the transfer into s.
-    /// NaN for other lengths, and for a tree whose copies differ.
+    /// Writes the transfer matrix (W) row by row: entry (s, r) is the power that sector r supplies
+    /// to sector s, with energies by Parseval's identity. It is exactly antisymmetric; row s sums
+    /// to the transfer into s. All entries are NaN if a slice has a wrong length or if copies of
+    /// the tree differ.
     pub fn transfer_matrix(
         &self,
         workspace: &mut Workspace<T>,
-        given: Given<'_, T>,
+        given: StateInput<'_, T>,
         matrix: &mut [T],
     ) {
         let shape = &*self.shape;
@@ -162,7 +166,7 @@ impl<T: Scalar> SymmetricTree<T> {
         matrix.fill(T::from_f64(f64::NAN));
         let all = 2 * sectors * links;
         let kept = (1 + CENTRES + KEPT + FORMED) * links + all;
-        let length = room(links, entries) + kept + factors(links, entries);
+        let length = workspace_len(links, entries) + kept + factors(links, entries);
         let mut memory = FreeMemory(workspace.numbers(length));
         let fits = matrix.len() == sectors * sectors && self.mean.is_none();
         let Some(motion) = self.motion(given, &mut memory).filter(|_| fits) else {
@@ -174,7 +178,7 @@ impl<T: Scalar> SymmetricTree<T> {
             .chunks_exact_mut(links)
             .zip(pushes.chunks_exact_mut(links));
         for (block, (flow, push)) in shape.blocks.iter().zip(rows) {
-            // The derivatives of E_s by momenta, u, and by angles at fixed momenta.
+            // Derivatives of E_s by momenta, u, and by angles at fixed momenta.
             let mut own = memory.lend();
             let share = self.share(block, &motion, &centres, &mut own);
             flow.copy_from_slice(share.by_omega);
@@ -186,7 +190,7 @@ impl<T: Scalar> SymmetricTree<T> {
                 *push = share.by_theta[link] - turned[link];
             }
             let fall = turned;
-            self.write_own_fall(block, &motion, fall);
+            self.write_sector_potential_slopes(block, &motion, fall);
             for (_, link, _) in block.links::<T>() {
                 push[link] = push[link] + fall[link];
             }
@@ -202,7 +206,8 @@ impl<T: Scalar> SymmetricTree<T> {
         }
     }
 
-    /// Writes the torques that turn momenta: ∂L/∂θ − Ṁ ω.
+    /// Writes the torques ∂L/∂θ − Ṁ ω, from which M⁻¹ gives the accelerations (L is the Lagrangian,
+    /// M the mass matrix).
     fn write_accelerations(
         &self,
         motion: &TreeMotion<'_, T>,
@@ -220,14 +225,19 @@ impl<T: Scalar> SymmetricTree<T> {
         }
     }
 
-    /// Writes the slopes of V_s, and returns V_s.
-    fn write_own_fall(&self, block: &BlockShape, motion: &TreeMotion<'_, T>, fall: &mut [T]) -> T {
+    /// Writes the derivatives of the sector's potential energy V_s by the angles; returns V_s.
+    fn write_sector_potential_slopes(
+        &self,
+        block: &BlockShape,
+        motion: &TreeMotion<'_, T>,
+        fall: &mut [T],
+    ) -> T {
         let turns = [motion.sines, motion.cosines];
         let (own, parents) = ((&self.springs, &self.chords), &self.shape.parents);
-        block.write_fall(self.equal(), own, parents, motion.theta, turns, fall)
+        block.write_potential_slopes(self.equal(), own, parents, motion.theta, turns, fall)
     }
 
-    /// E, W and P of a sector from its momenta.
+    /// Computes energy, transfer and power of a sector from its momenta.
     fn by_momenta(
         &self,
         block: &BlockShape,
@@ -242,7 +252,8 @@ impl<T: Scalar> SymmetricTree<T> {
         ]
     }
 
-    /// E, W and P of a sector by Parseval, from the velocities of the centres of mass.
+    /// Computes energy, transfer and power of a sector by Parseval's identity, from the velocities
+    /// of the centres of mass.
     fn by_parseval(
         &self,
         block: &BlockShape,
@@ -253,7 +264,7 @@ impl<T: Scalar> SymmetricTree<T> {
     ) -> Entry<T> {
         let share = self.share(block, motion, centres, &mut memory);
         let fall = memory.take(self.shape.links());
-        let potential = self.write_own_fall(block, motion, fall);
+        let potential = self.write_sector_potential_slopes(block, motion, fall);
         let [free, added] = around.accelerations;
         let stored = block.links::<T>();
         let stored = stored.fold(T::from_f64(0.0), |sum, (_, link, _)| {
@@ -266,7 +277,8 @@ impl<T: Scalar> SymmetricTree<T> {
         ]
     }
 
-    /// E, W and P of a sector from its velocities z: T = ½ zᵀ M z.
+    /// Computes energy, transfer and power of a sector from its velocities z and the mass matrix M:
+    /// T = ½ zᵀ M z.
     fn by_velocities(
         &self,
         block: &BlockShape,
@@ -294,7 +306,7 @@ impl<T: Scalar> SymmetricTree<T> {
             let rate = motion.omega[link] - motion.omega[above];
             turning = turning + matrix.slopes[place] * (own[link] * own[above]) * rate;
         }
-        let potential = self.write_own_fall(block, motion, fall);
+        let potential = self.write_sector_potential_slopes(block, motion, fall);
         let [free, added] = around.accelerations;
         let [mut twice, mut transfer, mut power] = [zero, turning, zero];
         for column in &block.columns {
@@ -311,7 +323,7 @@ impl<T: Scalar> SymmetricTree<T> {
     }
 }
 
-/// a·b.
+/// Returns the scalar product a·b.
 fn product<T: Scalar>(a: &[T], b: &[T]) -> T {
     let pairs = a.iter().zip(b);
     pairs.fold(T::from_f64(0.0), |sum, (&a, &b)| sum + a * b)

@@ -1,9 +1,10 @@
 //! Straight springs between copies, sector by sector.
 //!
-//! Copies on one pivot, at whose places r a spring κ without length at rest ends, have the energy
-//! ½ κ r² |e^{iθ_a} − e^{iθ_b}|². The same spring between every two of the k copies under one link
-//! adds ½ k κ r² |[e^{iθ}]_s|² to each sector s of their differences and nothing to others
-//! (physics (19.10)). It stands beside gravity's ½ G |[1 − e^{iθ}]_s|² with k κ r² for G.
+//! A spring κ of zero rest length between points at the distance r from the common pivot of two
+//! copies has the energy ½ κ r² |e^{iθ_a} − e^{iθ_b}|². If the same spring connects every two of
+//! the k copies under one link, the sum is ½ k κ r² |[e^{iθ}]_s|² in each sector s of their
+//! differences, and zero in all others (physics (19.10)). It has the form of gravity's ½ G |[1 −
+//! e^{iθ}]_s|², with k κ r² instead of G.
 
 use alloc::collections::BTreeSet;
 use alloc::vec::Vec;
@@ -12,26 +13,28 @@ use super::constants::rounded;
 use super::shape::{SectorColumn, SymmetricShape};
 use crate::scalar::{Double, Scalar};
 
-/// The same straight spring, without length at rest and without damper, between equal places of
+/// Identical straight springs, of zero rest length and without dampers, between the same point of
 /// every two copies of a node under one link.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ChordSpring<T> {
-    /// All copies under the link, by their indices.
+    /// Indices of all copies under the link.
     pub copies: Vec<usize>,
-    /// κ r² (J): the stiffness by the square of the places' distance from the pivot.
+    /// κ r² in J: the stiffness times the squared distance of the points from the pivot.
     pub strength: T,
 }
 
-/// Springs along the chords between equal places of copies.
+/// Straight springs between the same points of copies.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Chords<T> {
-    /// k κ r² (J) of coordinates, by their index. Empty without such springs.
+    /// k κ r² in J (k copies, stiffness κ, distance r from the pivot), by the index of the
+    /// coordinate. Empty without such springs.
     by_coordinate: Vec<T>,
-    /// Copies, two by two, with κ r² (J).
+    /// Pairs of copies connected by a spring, with κ r² in J (stiffness κ, distance r from the
+    /// pivot).
     pairs: Vec<([usize; 2], T)>,
 }
 
-/// None.
+/// No springs.
 impl<T> Default for Chords<T> {
     fn default() -> Self {
         Self {
@@ -42,7 +45,8 @@ impl<T> Default for Chords<T> {
 }
 
 impl<T: Scalar> Chords<T> {
-    /// Returns the springs by sectors. None for links that are not all copies under one link.
+    /// Converts springs between copies to energies by sector. Returns `None` if the links are not
+    /// all copies under one link.
     pub(super) fn of(shape: &SymmetricShape, springs: &[ChordSpring<Double>]) -> Option<Self> {
         if springs.is_empty() {
             return Some(Self::default());
@@ -83,13 +87,14 @@ impl<T: Scalar> Chords<T> {
         }
     }
 
-    /// Returns what stands beside G of a coordinate, where there are such springs.
+    /// Returns k κ r² of the springs on a coordinate, which is added to the constant G of gravity,
+    /// if there are such springs.
     #[inline(always)]
-    pub(super) fn beside_gravity(&self, coordinate: usize) -> Option<T> {
+    pub(super) fn spring_term(&self, coordinate: usize) -> Option<T> {
         self.by_coordinate.get(coordinate).copied()
     }
 
-    /// Adds the derivatives of their energy by the angles of the links.
+    /// Adds the derivatives of the springs' energy by the angles of the links to `slopes`.
     #[inline(always)]
     pub(super) fn add_slopes(&self, [sines, cosines]: [&[T]; 2], slopes: &mut [T]) {
         for &([a, b], strength) in &self.pairs {
@@ -99,7 +104,7 @@ impl<T: Scalar> Chords<T> {
         }
     }
 
-    /// Returns their energy.
+    /// Returns the potential energy of the springs, in J.
     #[inline(always)]
     pub(super) fn energy(&self, [sines, cosines]: [&[T]; 2]) -> T {
         let half = T::from_f64(0.5);
@@ -111,7 +116,8 @@ impl<T: Scalar> Chords<T> {
     }
 }
 
-/// The differences of a link and other copies under the same one: coordinates with their indices.
+/// Iterates over the coordinates that are differences between a link and the other copies under the
+/// same parent: their indices and columns.
 fn own_differences(
     shape: &SymmetricShape,
     link: usize,

@@ -2,37 +2,38 @@
 
 use alloc::vec::Vec;
 
-use super::pattern::Pattern;
+use super::pattern::MatrixPattern;
+use crate::friction::FrictionLaw;
 use crate::scalar::{Double, Scalar};
 
-/// A rigid link in numbers, SI units; places are along the link and across it.
+/// Constants of a rigid link, in SI units. Points are given by their components along the link and
+/// across it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RigidLink<T> {
-    /// The link that it hangs from, which stands before it.
+    /// Index of the parent, which is smaller than that of the link; `None` for the root.
     pub parent: Option<usize>,
-    /// Mass.
+    /// Mass, in kg.
     pub mass: T,
-    /// Moment of inertia about the centre of mass.
+    /// Moment of inertia about the centre of mass, in kg m².
     pub inertia: T,
-    /// Centre of mass, from the link's own pivot.
+    /// Centre of mass relative to the link's own pivot, in m.
     pub com: [T; 2],
-    /// The link's pivot, from that of its parent and in the parent's directions.
+    /// The link's pivot relative to the parent's pivot, in the parent's frame, in m.
     pub pivot: [T; 2],
-    /// Stiffness of the spring in its pivot.
+    /// Stiffness of the spring in the link's pivot, in N m.
     pub spring: T,
-    /// Angle to the parent at which that spring is at rest.
+    /// Rest angle of that spring, relative to the parent, in rad.
     pub rest: T,
-    /// Viscous friction in its pivot.
+    /// Coefficient of viscous friction in the link's pivot, in N m s.
     pub friction: T,
-    /// Viscous drag against the ground.
+    /// Coefficient of viscous drag against the ground, in N m s.
     pub drag: T,
-    /// C, q and ε of the torque (C/s + q s) w in the pivot, s = √(w² + ε²), then q and ε of
-    /// the torque q s w against the ground.
-    pub laws: [T; 5],
+    /// Laws of friction that is not viscous: in the pivot, and against the ground.
+    pub laws: [FrictionLaw<T>; 2],
 }
 
 impl<T: Copy> RigidLink<T> {
-    /// Returns the link on other scalars.
+    /// Converts the link to another scalar.
     pub(super) fn cast<S>(&self, convert: impl Fn(T) -> S) -> RigidLink<S> {
         RigidLink {
             parent: self.parent,
@@ -44,27 +45,31 @@ impl<T: Copy> RigidLink<T> {
             rest: convert(self.rest),
             friction: convert(self.friction),
             drag: convert(self.drag),
-            laws: self.laws.map(&convert),
+            laws: self.laws.map(|law| law.map(&convert)),
         }
     }
 }
 
-/// M and U: numbers of each link, and of each pair of a link and one above it.
+/// Constants of the mass matrix M and the potential energy U of a tree: one number per link, and
+/// one per pair of a link and an ancestor.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct MassConstants<T> {
-    /// M_ii.
+    /// Diagonal entries M_ii.
     pub(super) inertia: Vec<T>,
-    /// μ_ij of M_ij = μ_ij cos (θ_i − θ_j) + ν_ij sin (θ_i − θ_j).
+    /// Coefficients μ_ij of the entries M_ij = μ_ij cos (θ_i − θ_j) + ν_ij sin (θ_i − θ_j) of the
+    /// mass matrix.
     pub(super) coupling: Vec<T>,
-    /// ν_ij; empty without lateral offsets.
+    /// Coefficients ν_ij of the sines in the mass matrix; empty if all points lie on the axes of
+    /// their links.
     pub(super) lateral_coupling: Vec<T>,
-    /// G_i of U = Σ G_i (1 − cos θ_i) + F_i sin θ_i.
+    /// Coefficients G_i (N m) of the potential energy U = Σ G_i (1 − cos θ_i) + F_i sin θ_i.
     pub(super) gravity: Vec<T>,
-    /// F_i; empty without lateral offsets.
+    /// Coefficients F_i (N m) of the sines in the potential energy; empty if all points lie on the
+    /// axes of their links.
     pub(super) lateral_gravity: Vec<T>,
-    /// Stiffness of springs; empty without any.
+    /// Stiffnesses of the springs in the pivots; empty without springs.
     pub(super) spring: Vec<T>,
-    /// Angles at which they are at rest, likewise.
+    /// Rest angles of the springs in the pivots; empty without springs.
     pub(super) rest: Vec<T>,
 }
 
@@ -82,13 +87,14 @@ impl<T: Scalar> MassConstants<T> {
         }
     }
 
-    /// Returns the constants on other scalars.
+    /// Converts the constants to another scalar.
     pub(super) fn cast<S: Scalar>(&self, convert: impl Fn(T) -> S) -> MassConstants<S> {
         self.map(convert)
     }
 }
 
-/// First moments of mass about the pivots, with all that hangs from each link as points.
+/// Returns the first moment of mass (kg m) of each link about its pivot. The links that hang from
+/// it count as point masses at their pivots.
 pub(super) fn moments(links: &[RigidLink<Double>]) -> Vec<[Double; 2]> {
     let mut moments: Vec<[Double; 2]> = links
         .iter()
@@ -104,7 +110,7 @@ pub(super) fn moments(links: &[RigidLink<Double>]) -> Vec<[Double; 2]> {
     moments
 }
 
-/// Mass of each link with all that hangs from it.
+/// Returns for each link the total mass (kg) of the link and of all links below it.
 fn carried(links: &[RigidLink<Double>]) -> Vec<Double> {
     let mut carried: Vec<Double> = links.iter().map(|link| link.mass).collect();
     for (index, link) in links.iter().enumerate().rev() {
@@ -116,8 +122,12 @@ fn carried(links: &[RigidLink<Double>]) -> Vec<Double> {
 }
 
 impl MassConstants<Double> {
-    /// The constants of a tree.
-    pub(super) fn new(pattern: &Pattern, links: &[RigidLink<Double>], gravity: Double) -> Self {
+    /// Computes the constants of a tree from its links and the gravity (m/s²).
+    pub(super) fn new(
+        pattern: &MatrixPattern,
+        links: &[RigidLink<Double>],
+        gravity: Double,
+    ) -> Self {
         let zero = Double::from_f64(0.0);
         let moments = moments(links);
         let own = links.iter().map(|link| {
@@ -134,7 +144,7 @@ impl MassConstants<Double> {
         }
         let (mut coupling, mut lateral) = (Vec::new(), Vec::new());
         for (row, &[along, across]) in moments.iter().enumerate() {
-            // Of the links upwards, each one's child on this way.
+            // `child` is the child of each ancestor on the path to this link.
             let mut child = row;
             for (_, above) in pattern.upwards(row) {
                 let [x, y] = links[child].pivot;
@@ -166,9 +176,9 @@ impl MassConstants<Double> {
         }
     }
 
-    /// The constants of the mean tree (physics (14.1)): of links of one node each those that
-    /// they have in the mean.
-    pub(super) fn mean(&self, pattern: &Pattern, nodes: &[Vec<usize>]) -> Self {
+    /// Returns the constants of the mean tree (physics (14.1)): all links of a node get the mean of
+    /// their constants.
+    pub(super) fn mean(&self, pattern: &MatrixPattern, nodes: &[Vec<usize>]) -> Self {
         let mut mean = self.clone();
         for node in nodes {
             let lists = [
@@ -191,7 +201,7 @@ impl MassConstants<Double> {
         mean
     }
 
-    /// The constants less others.
+    /// Returns the differences between these constants and those of another tree.
     pub(super) fn less(&self, other: &Self) -> Self {
         let list = |own: &Vec<Double>, other: &Vec<Double>| {
             let pairs = own.iter().zip(other);
@@ -208,18 +218,18 @@ impl MassConstants<Double> {
         }
     }
 
-    /// The constants, each rounded once.
+    /// Returns the constants, rounded from `Double` to the scalar type `T`.
     pub(super) fn rounded<T: Scalar>(&self) -> MassConstants<T> {
         self.map(rounded)
     }
 }
 
-/// A constant in numbers of fewer digits.
+/// Rounds a constant to a scalar type with fewer digits.
 pub(super) fn rounded<T: Scalar>(value: Double) -> T {
     T::from_parts(value.high(), value.low())
 }
 
-/// Gives all of these numbers their mean.
+/// Replaces the numbers at the indices `places` by their mean.
 fn level(list: &mut [Double], places: &[usize]) {
     let zero = Double::from_f64(0.0);
     let own = places.iter().filter_map(|&place| list.get(place).copied());

@@ -1,28 +1,29 @@
-//! Energies and transfers of all sectors at a state, from their momenta.
+//! Energies of all sectors, and the exact transfers of energy into them, computed from coordinates
+//! and momenta.
 
 use super::forces::NonConservative;
 use super::memory::FreeMemory;
-use super::motion::{MassEntries, TreeMotion, factors, room, write_kinetic_slopes};
+use super::motion::{MassEntries, TreeMotion, factors, workspace_len, write_kinetic_slopes};
 use super::pattern::{multiply, write_slopes};
 use super::sector::{self, Alone, Surroundings, TransferTerms};
 use super::shape::BlockShape;
-use super::{Given, SymmetricTree};
+use super::{StateInput, SymmetricTree};
 use crate::model::Transfer;
 use crate::scalar::Scalar;
 use crate::system::Workspace;
 
 impl<T: Scalar> SymmetricTree<T> {
-    /// Numbers of a workspace.
-    pub(super) fn room(&self) -> usize {
+    /// Returns the length of the workspace of an evaluation, in numbers.
+    pub(super) fn workspace_len(&self) -> usize {
         let shape = &*self.shape;
         let (links, entries) = (shape.links(), shape.pattern.entries());
         let matrices = 4 * entries + factors(links, entries);
-        let own = sector::room(shape.largest_block(), links);
-        room(links, entries) + 6 * links + matrices + own
+        let own = sector::workspace_len(shape.largest_block(), links);
+        workspace_len(links, entries) + 6 * links + matrices + own
     }
 
-    /// The matrix that energies of sectors are formed with: of the mean tree where copies
-    /// differ.
+    /// Returns the mass matrix from which energies of sectors are computed: the matrix of the mean
+    /// tree if copies differ, else the tree's own.
     #[inline]
     pub(super) fn energy_matrix<'w>(
         &self,
@@ -35,7 +36,8 @@ impl<T: Scalar> SymmetricTree<T> {
         }
     }
 
-    /// Hands each sector by itself to `write`, with its number.
+    /// Computes the energy of each sector and its derivatives, and passes them to `write` with the
+    /// sector's index.
     #[inline]
     fn for_each(
         &self,
@@ -51,15 +53,16 @@ impl<T: Scalar> SymmetricTree<T> {
         }
     }
 
-    /// Hands the parts of the transfer into each sector to `write`.
+    /// Computes the terms of the transfer into each sector and passes them to `write` with the
+    /// sector's index.
     #[inline]
     pub(super) fn for_each_transfer(
         &self,
         workspace: &mut Workspace<T>,
-        given: Given<'_, T>,
+        given: StateInput<'_, T>,
         mut write: impl FnMut(usize, TransferTerms<T>),
     ) -> Option<()> {
-        let mut memory = FreeMemory(workspace.numbers(self.room()));
+        let mut memory = FreeMemory(workspace.numbers(self.workspace_len()));
         let motion = self.motion(given, &mut memory)?;
         let around = Surroundings {
             omega: motion.omega,
@@ -72,17 +75,17 @@ impl<T: Scalar> SymmetricTree<T> {
         Some(())
     }
 
-    /// Writes the energies T_s and V_s (J) of all sectors by themselves, from their momenta and
-    /// the block of the mass matrix at the configuration: the paper's H_d = T + V where a sector
-    /// has one coordinate. NaN for slices of other lengths.
+    /// Writes the kinetic and potential energies T_s and V_s (J) of all sectors s, from their
+    /// momenta and the block of the mass matrix at the current angles: their sum is the paper's H_d
+    /// if a sector has one coordinate. NaN for slices of a wrong length.
     pub fn energies(
         &self,
         workspace: &mut Workspace<T>,
-        given: Given<'_, T>,
+        given: StateInput<'_, T>,
         energies: &mut [[T; 2]],
     ) {
         energies.fill([T::from_f64(f64::NAN); 2]);
-        let mut memory = FreeMemory(workspace.numbers(self.room()));
+        let mut memory = FreeMemory(workspace.numbers(self.workspace_len()));
         let fits = energies.len() == self.shape.blocks.len();
         let Some(motion) = self.motion(given, &mut memory).filter(|_| fits) else {
             return;
@@ -93,13 +96,13 @@ impl<T: Scalar> SymmetricTree<T> {
         });
     }
 
-    /// Writes the energy transfers W_s = {E_s, H} (W) into all sectors without truncation, with
-    /// E_s as [`energies`](Self::energies) has them. Forces beside springs and gravity have
-    /// powers of their own: [`powers`](Self::powers). NaN for slices of other lengths.
+    /// Writes the energy transfers W_s = {E_s, H} (W) into all sectors without truncation; E_s =
+    /// T_s + V_s is the energy from [`energies`](Self::energies). Forces other than springs and
+    /// gravity are not included, see [`powers`](Self::powers). NaN for slices of a wrong length.
     pub fn exact_transfers(
         &self,
         workspace: &mut Workspace<T>,
-        given: Given<'_, T>,
+        given: StateInput<'_, T>,
         transfers: &mut [Transfer<T>],
     ) {
         fill(transfers);
@@ -110,25 +113,25 @@ impl<T: Scalar> SymmetricTree<T> {
         }
     }
 
-    /// Writes the growth: what the mean tree gives all sectors at the same coordinates and
-    /// momenta (physics (14.4)). The whole transfer where copies do not differ.
+    /// Writes the growth: the energy transfers (W) into all sectors in the mean tree, at the same
+    /// coordinates and momenta (physics (14.4)). If copies do not differ, it is the whole transfer.
     pub fn growth(
         &self,
         workspace: &mut Workspace<T>,
-        given: Given<'_, T>,
+        given: StateInput<'_, T>,
         transfers: &mut [Transfer<T>],
     ) {
         let Some(mean) = &self.mean else {
             return self.exact_transfers(workspace, given, transfers);
         };
         fill(transfers);
-        let mut memory = FreeMemory(workspace.numbers(self.room()));
+        let mut memory = FreeMemory(workspace.numbers(self.workspace_len()));
         let fits = transfers.len() == self.shape.blocks.len();
         let Some(motion) = self.motion(given, &mut memory).filter(|_| fits) else {
             return;
         };
         let matrix = self.energy_matrix(&motion, &mut memory);
-        // The velocities that the momenta have in the mean tree.
+        // Velocities that belong to these momenta in the mean tree.
         let omega = memory.take(self.shape.links());
         self.write_absolute_momenta(&motion, omega);
         self.solve(&mean.equal, matrix, omega, memory.lend());
@@ -142,18 +145,18 @@ impl<T: Scalar> SymmetricTree<T> {
         });
     }
 
-    /// Writes the forcing: what the differences between copies add to the growth (physics
-    /// (14.5)), zero where there are none. Each term has such a difference: small forcing is no
-    /// difference of large numbers.
+    /// Writes the forcing: the energy transfer (W) that differences between copies add to the
+    /// growth (physics (14.5)), zero without such differences. Each of its terms contains such a
+    /// difference, so that a small forcing is not computed as the difference of two large numbers.
     pub fn forcing(
         &self,
         workspace: &mut Workspace<T>,
-        given: Given<'_, T>,
+        given: StateInput<'_, T>,
         transfers: &mut [Transfer<T>],
     ) {
         fill(transfers);
         let (zero, half) = (T::from_f64(0.0), T::from_f64(0.5));
-        let mut memory = FreeMemory(workspace.numbers(self.room()));
+        let mut memory = FreeMemory(workspace.numbers(self.workspace_len()));
         let fits = transfers.len() == self.shape.blocks.len();
         let Some(motion) = self.motion(given, &mut memory).filter(|_| fits) else {
             return;
@@ -188,7 +191,7 @@ impl<T: Scalar> SymmetricTree<T> {
         }
         let fall = part;
         let constants = [&self.whole, &mean.equal, &mean.beyond];
-        self.write_fall_beyond(constants, &motion, fall);
+        self.write_potential_slope_mismatch(constants, &motion, fall);
         let (added, kinetic, fall) = (&*added, &*kinetic, &*fall);
         self.for_each(&motion, matrix, memory, |number, block, own| {
             let [mut driven, mut potential] = [zero; 2];
@@ -204,17 +207,17 @@ impl<T: Scalar> SymmetricTree<T> {
         });
     }
 
-    /// Writes the powers (W) of forces on the energies of all sectors: Σ ∂E_s/∂p Q. NaN for
-    /// slices of other lengths.
+    /// Writes the powers (W) of forces on the energies of all sectors: Σ ∂E_s/∂p Q. NaN for slices
+    /// of a wrong length.
     pub fn powers(
         &self,
         workspace: &mut Workspace<T>,
         acting: NonConservative<'_, T>,
-        given: Given<'_, T>,
+        given: StateInput<'_, T>,
         powers: &mut [T],
     ) {
         powers.fill(T::from_f64(f64::NAN));
-        let mut memory = FreeMemory(workspace.numbers(self.room()));
+        let mut memory = FreeMemory(workspace.numbers(self.workspace_len()));
         let fits = powers.len() == self.shape.blocks.len();
         let Some(motion) = self.motion(given, &mut memory).filter(|_| fits) else {
             return;
@@ -230,7 +233,7 @@ impl<T: Scalar> SymmetricTree<T> {
     }
 }
 
-/// Fills what has no answer yet.
+/// Fills the transfers with NaN, for input from which they cannot be computed.
 pub(super) fn fill<T: Scalar>(transfers: &mut [Transfer<T>]) {
     let nan = T::from_f64(f64::NAN);
     transfers.fill(Transfer {

@@ -1,41 +1,45 @@
-//! Forces that no energy knows: friction, the drive, torques from outside.
+//! Forces that have no potential energy: friction, the drive, external torques.
 
 use alloc::vec::Vec;
 
 use super::SymmetricTree;
 use super::motion::TreeMotion;
+use crate::friction::FrictionLaw;
 use crate::scalar::Scalar;
 
-/// What acts on a tree beside its springs and gravity.
+/// A force on a tree other than its springs and gravity.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum NonConservative<'a, T> {
     /// Friction in the pivots and against the ground.
     Friction,
-    /// The drive at one time: the acceleration x, y (m/s²) of the root's pivot, y upwards, and
+    /// The drive at one time: the acceleration x, y (m/s²) of the root's pivot, with y upwards, and
     /// the torque (N m) on the root.
     Drive([T; 3]),
-    /// Torques from outside (N m), one for each link.
+    /// External torques (N m), one per link.
     Torques(&'a [T]),
 }
 
-/// Constants of friction and of the drive.
+/// Constants of the friction and of the drive of a tree.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Passive<T> {
-    /// Friction in the pivot and drag of each link; empty where there are none.
+    /// Coefficients (N m s) of viscous friction in the pivot and of drag against the ground, for
+    /// each link; empty if a tree has neither.
     pub(super) viscous: Vec<[T; 2]>,
-    /// Laws of friction that is not viscous, likewise.
-    pub(super) laws: Vec<[T; 5]>,
-    /// First moments of mass about the pivots.
+    /// The two laws of non-viscous friction of each link, in its pivot and against the ground;
+    /// empty if the tree has no such friction.
+    pub(super) laws: Vec<[FrictionLaw<T>; 2]>,
+    /// First moments of mass of the links about their pivots, in kg m.
     pub(super) moments: Vec<[T; 2]>,
-    /// True if y of the drive is against that of the equations.
+    /// True if the y axis of the drive is opposite to that of the equations.
     pub(super) stands: bool,
 }
 
 impl<T: Scalar> Passive<T> {
     pub(super) fn cast<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Passive<S> {
+        let laws = self.laws.iter();
         Passive {
             viscous: self.viscous.iter().map(|row| row.map(&convert)).collect(),
-            laws: self.laws.iter().map(|row| row.map(&convert)).collect(),
+            laws: laws.map(|row| row.map(|law| law.map(&convert))).collect(),
             moments: self.moments.iter().map(|row| row.map(&convert)).collect(),
             stands: self.stands,
         }
@@ -43,7 +47,8 @@ impl<T: Scalar> Passive<T> {
 }
 
 impl<T: Scalar> SymmetricTree<T> {
-    /// Adds generalized forces Q. NaN for torques of another number than there are links.
+    /// Adds the generalized forces (N m) on the links to `q`. NaN if the number of torques is not
+    /// the number of links.
     pub(super) fn add_forces(
         &self,
         acting: NonConservative<'_, T>,
@@ -77,13 +82,12 @@ impl<T: Scalar> SymmetricTree<T> {
         for (link, &[friction, drag]) in viscous.iter().enumerate() {
             brake(link, friction * relative(link), drag * omega[link]);
         }
-        for (link, law) in laws.iter().enumerate() {
-            let &[coulomb, quadratic, width, drag, drag_width] = law;
-            let (rate, own) = (relative(link), omega[link]);
-            let speed = (rate * rate + width * width).sqrt();
-            let own_speed = (own * own + drag_width * drag_width).sqrt();
-            let joint = (coulomb / speed + quadratic * speed) * rate;
-            brake(link, joint, drag * own_speed * own);
+        for (link, [joint, ground]) in laws.iter().enumerate() {
+            brake(
+                link,
+                joint.torque(relative(link)),
+                ground.torque(omega[link]),
+            );
         }
         if !self.spring_dampers.is_empty() {
             self.spring_dampers.add_friction(omega, q);

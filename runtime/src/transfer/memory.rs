@@ -1,12 +1,13 @@
-//! Memory of an evaluation, in parts.
+//! Workspace of an evaluation, from which consecutive parts are taken.
 
 use crate::scalar::Scalar;
 
-/// What is left of a workspace's numbers.
+/// Remaining part of a workspace.
 pub(super) struct FreeMemory<'w, T>(pub(super) &'w mut [T]);
 
 impl<'w, T: Scalar> FreeMemory<'w, T> {
-    /// Takes so many numbers, of any values; fewer where there are no more.
+    /// Takes the next `length` numbers of the workspace, with arbitrary values; fewer if it is
+    /// exhausted.
     #[inline(always)]
     pub(super) fn take(&mut self, length: usize) -> &'w mut [T] {
         let all = core::mem::take(&mut self.0);
@@ -15,7 +16,7 @@ impl<'w, T: Scalar> FreeMemory<'w, T> {
         part
     }
 
-    /// Lends all numbers.
+    /// Lends the remaining workspace.
     #[inline(always)]
     pub(super) fn lend(&mut self) -> FreeMemory<'_, T> {
         FreeMemory(&mut *self.0)

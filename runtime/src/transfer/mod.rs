@@ -1,13 +1,15 @@
-//! Energy transfer W between the sectors of any tree with copies, from numbers alone.
+//! Energy transfer W between the sectors of any tree with copies, computed from numbers at run
+//! time.
 //!
-//! A [`SymmetricTree`] is a tree in numbers, with the sectors that its copies give it: symmetric
-//! coordinates and their momenta, energies of the sectors by each definition, and W into them,
-//! exact, by orders of the amplitude, as published, and by what friction, the drive and torques
-//! from outside do. Nothing of it is compiled for one tree: trees that are read while a program
-//! runs have it (`branched_pendulum_trees::PendulumTree::symmetric`). Formulas are those of
-//! compiled models (`docs/physics.md`, sections 5, 9 and 14), in absolute angles: terms of small
-//! differences have rounding errors of the size of the in-phase motion, where compiled ones have
-//! those of the differences.
+//! A [`SymmetricTree`] is a tree given by numbers, with the sectors that its copies define (sets of
+//! symmetric coordinates: all means, or one difference between copies). It provides symmetric
+//! coordinates and their momenta, energies of the sectors in each definition, and the transfers W
+//! into them: exact, by orders of the amplitude, in the published form, and the powers of friction,
+//! the drive and external torques. No code is compiled for a single tree, so that trees read while
+//! a program runs can use it (`branched_pendulum_trees::PendulumTree::symmetric`). The formulas are
+//! those of compiled models (`docs/physics.md`, sections 5, 9 and 14), in absolute angles. Terms of
+//! small differences therefore have rounding errors in proportion to the in-phase motion, whereas
+//! those of compiled models are in proportion to the differences.
 
 mod block;
 mod budget;
@@ -24,6 +26,8 @@ mod sector;
 mod shape;
 mod springs;
 mod states;
+#[cfg(test)]
+mod tests;
 
 pub use budget::{EnergyDefinition, SectorBudget};
 pub use chords::ChordSpring;
@@ -40,16 +44,17 @@ use forces::Passive;
 use shape::SymmetricShape;
 use springs::SectorSprings;
 
+use crate::friction::FrictionLaw;
 use crate::scalar::{Double, Scalar, at};
 use crate::sectors::{Sector, Sectors};
 use crate::spring_dampers::SpringDampers;
 
 /// A tree with copies in numbers `T`, in its symmetric coordinates.
 ///
-/// Functions take a state as it is [`Given`], and write a result for each
-/// [sector](Sectors::sectors), with memory that the caller keeps: the first evaluation allocates
-/// it, later ones allocate nothing. Effort: O(n · depth²) from momenta and O(n · depth) from
-/// velocities of n links.
+/// Functions take a state in one of the forms of [`StateInput`] and write one result per
+/// [sector](Sectors::sectors). The caller keeps the workspace: the first evaluation allocates it,
+/// later ones allocate nothing. Effort: O(n · depth²) from momenta and O(n · depth) from velocities
+/// of n links.
 ///
 /// # Examples
 ///
@@ -57,10 +62,11 @@ use crate::spring_dampers::SpringDampers;
 /// the amplitude, and exact.
 ///
 /// ```
+/// use branched_pendulum::friction::FrictionLaw;
 /// use branched_pendulum::scalar::Double;
 /// use branched_pendulum::sectors::{Sector, SectorCoordinate};
 /// use branched_pendulum::system::Workspace;
-/// use branched_pendulum::transfer::{Given, RigidLink, SymmetricTree};
+/// use branched_pendulum::transfer::{StateInput, RigidLink, SymmetricTree};
 /// use branched_pendulum::{Transfer, TransferForm};
 ///
 /// let link = |parent, mass, com, inertia, pivot| RigidLink {
@@ -73,7 +79,7 @@ use crate::spring_dampers::SpringDampers;
 ///     rest: 0.0,
 ///     friction: 0.0,
 ///     drag: 0.0,
-///     laws: [0.0; 5],
+///     laws: [FrictionLaw::of_constants([0.0, 0.0, 1.0]); 2],
 /// };
 /// let child = link(Some(0), 0.10531, 0.043, 0.516e-3, 0.27);
 /// let links = [link(None, 0.12880, 0.084, 1.88e-3, 0.0), child, child];
@@ -90,7 +96,7 @@ use crate::spring_dampers::SpringDampers;
 /// let tree = SymmetricTree::<f64>::new(&links, 9.80665, &sectors).unwrap();
 ///
 /// let (coordinates, momenta) = ([0.4, 0.3, 0.01], [0.02, -0.004, 2e-4]);
-/// let given = Given::Momenta { coordinates: &coordinates, momenta: &momenta };
+/// let given = StateInput::Momenta { coordinates: &coordinates, momenta: &momenta };
 /// let (mut workspace, mut w) = (Workspace::new(), [Transfer::default(); 2]);
 /// let mut into_d = |form| {
 ///     tree.transfers(&mut workspace, form, given, &mut w);
@@ -110,22 +116,23 @@ pub struct SymmetricTree<T> {
     bodies: Vec<RigidLink<T>>,
     passive: Passive<T>,
     spring_dampers: SpringDampers<T>,
-    /// The springs among them.
+    /// Springs between links that are not parent and child.
     springs: SectorSprings<T>,
     chords: Chords<T>,
 }
 
-/// The tree of equal copies beside one whose copies differ.
+/// The tree in which the copies of each node have the mean of their constants, and the differences
+/// from it.
 #[derive(Clone, Debug, PartialEq)]
 struct MeanTree<T> {
     equal: MassConstants<T>,
-    /// The constants less these.
+    /// Constants of the tree minus the constants of the mean tree.
     beyond: MassConstants<T>,
 }
 
-/// A state of a tree, as it is given.
+/// A state of a tree, in one of several sets of variables.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Given<'a, T> {
+pub enum StateInput<'a, T> {
     /// Angles (rad) and angular velocities (rad/s) of the links.
     Absolute {
         /// Angles.
@@ -133,23 +140,23 @@ pub enum Given<'a, T> {
         /// Angular velocities.
         omega: &'a [T],
     },
-    /// Symmetric coordinates (rad) and their rates (rad/s), as an experiment measures them.
+    /// Symmetric coordinates (rad) and their rates (rad/s), as in measured data.
     Rates {
         /// Coordinates.
         coordinates: &'a [T],
-        /// Their rates.
+        /// Rates of the coordinates.
         rates: &'a [T],
     },
-    /// Symmetric coordinates (rad) and their momenta (kg m²/s).
+    /// Symmetric coordinates (rad) and their canonical momenta (kg m²/s).
     Momenta {
         /// Coordinates.
         coordinates: &'a [T],
-        /// Their momenta.
+        /// Momenta of the coordinates.
         momenta: &'a [T],
     },
 }
 
-impl<T> Given<'_, T> {
+impl<T> StateInput<'_, T> {
     fn lengths(&self) -> [usize; 2] {
         match self {
             Self::Absolute { theta, omega } => [theta.len(), omega.len()],
@@ -163,10 +170,10 @@ impl<T> Given<'_, T> {
 }
 
 impl<T: Scalar> SymmetricTree<T> {
-    /// A tree of these links under this gravity (m/s², negative for one that stands, whose
-    /// angles are from the upward vertical), whose copies are equal.
+    /// Creates a tree of these links, all copies of which are equal. `gravity` is in m/s²; it is
+    /// negative for an upright tree, whose angles are measured from the upward vertical.
     ///
-    /// None where a link does not stand behind its parent, or the sectors have not one
+    /// Returns `None` if there are no links, if a link comes before its parent, or if the sectors do not have one
     /// coordinate for each link.
     pub fn new<S: Scalar + Into<Double>>(
         links: &[RigidLink<S>],
@@ -176,10 +183,11 @@ impl<T: Scalar> SymmetricTree<T> {
         Self::with_unequal_copies(links, gravity, sectors, &[])
     }
 
-    /// A tree of links some of which are copies that differ: of each node of such copies all
-    /// links.
+    /// Creates a tree in which some copies differ. `nodes` lists, for each node of the description
+    /// whose copies differ, all its links.
     ///
-    /// None as [`new`](Self::new), and for links that there are not.
+    /// Returns `None` in the same cases as [`new`](Self::new), and if `nodes` contains links that
+    /// do not exist.
     pub fn with_unequal_copies<S: Scalar + Into<Double>>(
         links: &[RigidLink<S>],
         gravity: S,
@@ -204,13 +212,11 @@ impl<T: Scalar> SymmetricTree<T> {
         });
         let zero = Double::from_f64(0.0);
         let is_viscous = |link: &RigidLink<Double>| [link.friction, link.drag] != [zero; 2];
-        let is_braked = |link: &RigidLink<Double>| {
-            let [coulomb, quadratic, _, drag, _] = link.laws;
-            [coulomb, quadratic, drag] != [zero; 3]
-        };
+        let is_braked = |link: &RigidLink<Double>| !link.laws.iter().all(FrictionLaw::is_none);
         let viscous = links.iter();
         let viscous = viscous.map(|link| [link.friction, link.drag].map(rounded));
-        let laws = links.iter().map(|link| link.laws.map(rounded));
+        let laws = links.iter();
+        let laws = laws.map(|link| link.laws.map(|law| law.map(rounded)));
         let moments = moments(&links).into_iter();
         let passive = Passive {
             viscous: match links.iter().any(is_viscous) {
@@ -238,10 +244,10 @@ impl<T: Scalar> SymmetricTree<T> {
 
     /// Returns the tree with springs and friction between links that are not parent and child.
     ///
-    /// None for those of another number of links, and for springs that couple sectors, which have
-    /// no energies by themselves then. Springs between links of one sector couple none, and the same
-    /// spring between every two copies of a node under one link does not either. A spring that is
-    /// not at rest where its links have one angle has to be between means alone.
+    /// Returns `None` if they are made for another number of links, or if springs couple sectors,
+    /// which then have no separate energies. Springs between links of one sector couple none;
+    /// neither does the same spring between every two copies of a node under one link. A spring
+    /// that is not at rest at equal angles may connect means only.
     #[must_use]
     pub fn with_spring_dampers(mut self, spring_dampers: SpringDampers<Double>) -> Option<Self> {
         if spring_dampers.is_empty() {
@@ -256,25 +262,25 @@ impl<T: Scalar> SymmetricTree<T> {
     }
 
     /// Returns the tree with straight springs between copies, whose energy is a sum over sectors.
-    /// Other straight springs couple these in general.
+    /// Other straight springs couple sectors in general.
     ///
-    /// None for links that are not all copies of a node under one link, or named twice.
+    /// Returns `None` if the links are not all copies of a node under one link, or occur twice.
     #[must_use]
     pub fn with_straight_springs(mut self, springs: &[ChordSpring<Double>]) -> Option<Self> {
         self.chords = Chords::of(&self.shape, springs)?;
         Some(self)
     }
 
-    /// Returns the tree as one that stands, or not, whatever its gravity: y of the drive is
-    /// upwards in both.
+    /// Sets whether the tree stands upright (true) or hangs, independent of the sign of its
+    /// gravity. The y axis of the drive points upwards in both cases.
     #[must_use]
     pub fn standing(mut self, stands: bool) -> Self {
         self.passive.stands = stands;
         self
     }
 
-    /// Returns the tree on other scalars: `convert` should change the type of its constants and
-    /// not their value.
+    /// Converts the constants of the tree to another scalar type by `convert`, which should not
+    /// change their values.
     #[must_use]
     pub fn cast<S: Scalar>(&self, convert: impl Fn(T) -> S) -> SymmetricTree<S> {
         SymmetricTree {
@@ -292,7 +298,7 @@ impl<T: Scalar> SymmetricTree<T> {
         }
     }
 
-    /// Number of links.
+    /// Returns the number of links.
     #[must_use]
     pub fn links(&self) -> usize {
         self.shape.links()
@@ -304,22 +310,22 @@ impl<T: Scalar> SymmetricTree<T> {
         self.mean.is_some()
     }
 
-    /// Returns the number of the sector with that name.
+    /// Returns the index of the sector with the given name.
     #[must_use]
     pub fn sector(&self, name: &str) -> Option<usize> {
         let mut sectors = self.sectors().iter();
         sectors.position(|sector| sector.name() == name)
     }
 
-    /// Moment of inertia M_ii (kg m²) of a link about its pivot, with all that hangs from it as
-    /// points at their pivots; NaN for no link.
+    /// Returns the moment of inertia M_ii (kg m²) of a link about its pivot, in which the links
+    /// below it count as point masses at their pivots; NaN for a link that does not exist.
     #[must_use]
     pub fn inertia(&self, link: usize) -> T {
         at(&self.whole.inertia, link)
     }
 
-    /// G and F (N m) of a link's share G (1 − cos θ) + F sin θ in the potential energy; NaN for no
-    /// link.
+    /// Returns G and F (N m) of a link's part G (1 − cos θ) + F sin θ of the potential energy; NaN
+    /// for a link that does not exist.
     #[must_use]
     pub fn gravity(&self, link: usize) -> [T; 2] {
         let lateral = self.whole.lateral_gravity.get(link);
@@ -327,8 +333,8 @@ impl<T: Scalar> SymmetricTree<T> {
         [at(&self.whole.gravity, link), lateral]
     }
 
-    /// μ and ν (kg m²) of the entry μ cos (θ_i − θ_j) + ν sin (θ_i − θ_j) of the mass matrix
-    /// between a link i and one above it; zero between others.
+    /// Returns μ and ν (kg m²) of the entry μ cos (θ_i − θ_j) + ν sin (θ_i − θ_j) of the mass
+    /// matrix between a link i and its ancestor j; zero between other links.
     #[must_use]
     pub fn coupling(&self, link: usize, above: usize) -> [T; 2] {
         let zero = T::from_f64(0.0);
@@ -344,7 +350,8 @@ impl<T: Scalar> SymmetricTree<T> {
         [of(&self.whole.coupling), of(&self.whole.lateral_coupling)]
     }
 
-    /// The constants that energies of sectors are formed with.
+    /// Returns the constants from which energies of sectors are computed: the constants of the mean
+    /// tree if copies differ, else the tree's own.
     #[inline(always)]
     fn equal(&self) -> &MassConstants<T> {
         match &self.mean {

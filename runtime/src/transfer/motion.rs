@@ -1,13 +1,13 @@
-//! A state of a tree with copies, and what its constants make of it.
+//! A state of a tree with copies, and the quantities computed from it.
 
 use super::constants::MassConstants;
 use super::memory::FreeMemory;
-use super::pattern::{Entries, Pattern, multiply, write_slopes};
-use super::{Given, SymmetricTree};
+use super::pattern::{Entries, MatrixPattern, multiply, write_slopes};
+use super::{StateInput, SymmetricTree};
 use crate::scalar::{Scalar, at};
 use crate::sectors::{Normalisation, Sectors};
 
-/// Angles, their sines and cosines, velocities and momenta.
+/// Angles of the links, their sines and cosines, velocities and momenta.
 pub(super) struct TreeMotion<'w, T> {
     pub(super) theta: &'w [T],
     pub(super) omega: &'w [T],
@@ -19,36 +19,38 @@ pub(super) struct TreeMotion<'w, T> {
     pub(super) matrix: MassEntries<'w, T>,
 }
 
-/// Entries of a mass matrix beside its diagonal, and their derivatives by the angle of their
-/// row.
+/// Off-diagonal entries M_ij of a mass matrix, and their derivatives by the angle θ_i of their row.
 #[derive(Clone, Copy)]
 pub(super) struct MassEntries<'w, T> {
     pub(super) beside: &'w [T],
     pub(super) slopes: &'w [T],
 }
 
-/// Derivatives of K at fixed velocities and of U, by the angles.
+/// Derivatives of the kinetic energy K (at fixed velocities) and of the potential energy U by the
+/// angles of the links.
 pub(super) struct SlopesOfEnergies<'w, T> {
     pub(super) kinetic: &'w [T],
     pub(super) potential: &'w [T],
 }
 
-/// Numbers that a state of so many links and entries takes.
-pub(super) fn room(links: usize, entries: usize) -> usize {
+/// Returns the length of the workspace, in numbers, for a state of `links` links whose mass matrix
+/// has `entries` off-diagonal entries.
+pub(super) fn workspace_len(links: usize, entries: usize) -> usize {
     6 * links + 2 * entries
 }
 
-/// Numbers for the factors of a matrix.
+/// Returns the length of the workspace, in numbers, for the factorisation of a mass matrix.
 pub(super) fn factors(links: usize, entries: usize) -> usize {
     links + entries
 }
 
 impl<T: Scalar> SymmetricTree<T> {
-    /// Returns the state; none for slices of another length than there are links.
+    /// Computes angles, velocities, momenta and the mass matrix of a state; `None` if a slice does
+    /// not have one number per link.
     #[inline]
     pub(super) fn motion<'w>(
         &self,
-        given: Given<'_, T>,
+        given: StateInput<'_, T>,
         memory: &mut FreeMemory<'w, T>,
     ) -> Option<TreeMotion<'w, T>> {
         let (shape, plain) = (&*self.shape, Normalisation::Plain);
@@ -58,8 +60,8 @@ impl<T: Scalar> SymmetricTree<T> {
         }
         let [theta, omega, momenta] = [(); 3].map(|()| memory.take(links));
         match given {
-            Given::Absolute { theta: own, .. } => theta.copy_from_slice(own),
-            Given::Rates { coordinates, .. } | Given::Momenta { coordinates, .. } => {
+            StateInput::Absolute { theta: own, .. } => theta.copy_from_slice(own),
+            StateInput::Rates { coordinates, .. } | StateInput::Momenta { coordinates, .. } => {
                 self.absolute_from_symmetric(plain, coordinates, theta);
             }
         }
@@ -68,15 +70,15 @@ impl<T: Scalar> SymmetricTree<T> {
         let matrix = self.matrix(&self.whole, [sines, cosines], memory);
         let absolute = memory.take(links);
         match given {
-            Given::Momenta { momenta: own, .. } => {
+            StateInput::Momenta { momenta: own, .. } => {
                 momenta.copy_from_slice(own);
                 self.absolute_momenta_from_symmetric(plain, own, omega);
                 self.solve(&self.whole, matrix, omega, memory.lend());
             }
-            Given::Absolute { omega: own, .. } => omega.copy_from_slice(own),
-            Given::Rates { rates, .. } => self.absolute_from_symmetric(plain, rates, omega),
+            StateInput::Absolute { omega: own, .. } => omega.copy_from_slice(own),
+            StateInput::Rates { rates, .. } => self.absolute_from_symmetric(plain, rates, omega),
         }
-        if !matches!(given, Given::Momenta { .. }) {
+        if !matches!(given, StateInput::Momenta { .. }) {
             let (pattern, inertia) = (&shape.pattern, &self.whole.inertia);
             multiply(pattern, inertia, matrix.beside, omega, absolute);
             self.symmetric_momenta_from_absolute(plain, absolute, momenta);
@@ -91,7 +93,7 @@ impl<T: Scalar> SymmetricTree<T> {
         })
     }
 
-    /// The mass matrix of these constants.
+    /// Computes the off-diagonal entries of the mass matrix with these constants.
     #[inline]
     pub(super) fn matrix<'w>(
         &self,
@@ -114,7 +116,8 @@ impl<T: Scalar> SymmetricTree<T> {
         MassEntries { beside, slopes }
     }
 
-    /// Turns forces into what they accelerate, or momenta into velocities.
+    /// Solves a linear system with the mass matrix, in place: converts torques to accelerations, or
+    /// momenta to velocities.
     #[inline]
     pub(super) fn solve(
         &self,
@@ -134,7 +137,8 @@ impl<T: Scalar> SymmetricTree<T> {
         factors.solve(pattern, values);
     }
 
-    /// The slopes of the energies of a motion with these constants.
+    /// Computes the derivatives of the kinetic and potential energies by the angles, for a tree
+    /// with these constants.
     #[inline]
     pub(super) fn slopes<'w>(
         &self,
@@ -146,12 +150,12 @@ impl<T: Scalar> SymmetricTree<T> {
         let pattern = &self.shape.pattern;
         let [kinetic, potential] = [(); 2].map(|()| memory.take(pattern.rows()));
         write_kinetic_slopes(pattern, matrix.slopes, motion.omega, kinetic);
-        self.write_fall(constants, motion, potential);
+        self.write_potential_slopes(constants, motion, potential);
         SlopesOfEnergies { kinetic, potential }
     }
 
-    /// Writes the derivatives of U by the angles.
-    fn write_fall(
+    /// Writes the derivatives ∂U/∂θ (N m) of the potential energy by the angles.
+    fn write_potential_slopes(
         &self,
         constants: &MassConstants<T>,
         motion: &TreeMotion<'_, T>,
@@ -177,9 +181,10 @@ impl<T: Scalar> SymmetricTree<T> {
         self.chords.add_slopes(turns, slopes);
     }
 
-    /// Writes those of U less the mean tree's: G and F by themselves, and of springs
-    /// Δκ φ − κ̄ Δρ with the strain φ.
-    pub(super) fn write_fall_beyond(
+    /// Writes the derivatives of the potential energy U minus the same derivatives for the mean
+    /// tree. They are computed from the differences of the constants, without cancellation; a
+    /// spring adds Δκ φ − κ̄ Δρ, with its strain φ.
+    pub(super) fn write_potential_slope_mismatch(
         &self,
         [whole, mean, beyond]: [&MassConstants<T>; 3],
         motion: &TreeMotion<'_, T>,
@@ -201,7 +206,8 @@ impl<T: Scalar> SymmetricTree<T> {
         }
     }
 
-    /// θ − θ_parent − ρ.
+    /// Returns the strain θ − θ_parent − ρ (rad) of the spring in a link's pivot; ρ is its rest
+    /// angle.
     #[inline(always)]
     fn strain(&self, constants: &MassConstants<T>, theta: &[T], link: usize) -> T {
         let own = match self.shape.parents[link] {
@@ -211,7 +217,7 @@ impl<T: Scalar> SymmetricTree<T> {
         own - at(&constants.rest, link)
     }
 
-    /// U.
+    /// Computes the potential energy U.
     pub(super) fn potential_energy(&self, motion: &TreeMotion<'_, T>) -> T {
         let (constants, half) = (&self.whole, T::from_f64(0.5));
         let mut energy = T::from_f64(0.0);
@@ -232,7 +238,7 @@ impl<T: Scalar> SymmetricTree<T> {
     }
 }
 
-/// Writes sines and cosines, four at once where there are.
+/// Writes the sines and cosines of the angles, computed four at a time if possible.
 #[inline(always)]
 fn write_turns<T: Scalar>(theta: &[T], sines: &mut [T], cosines: &mut [T]) {
     let (fours, rest) = theta.as_chunks::<4>();
@@ -259,7 +265,7 @@ fn write_turns<T: Scalar>(theta: &[T], sines: &mut [T], cosines: &mut [T]) {
 /// Writes ½ ωᵀ (∂M/∂θ_i) ω.
 #[inline(always)]
 pub(super) fn write_kinetic_slopes<T: Scalar>(
-    pattern: &Pattern,
+    pattern: &MatrixPattern,
     slopes: &[T],
     omega: &[T],
     result: &mut [T],

@@ -1,30 +1,32 @@
-//! Transfers by orders of the differences (physics (5.3), (5.6), (9.13)).
+//! Energy transfers truncated at an order in the differences between copies (physics (5.3), (5.6),
+//! (9.13)).
 
 use alloc::vec::Vec;
 
 use super::exact::fill;
 use super::sector::TransferTerms;
-use super::{Given, SymmetricTree};
+use super::{StateInput, SymmetricTree};
 use crate::model::Transfer;
 use crate::scalar::{PowerSeries, Scalar};
 use crate::system::Workspace;
 use crate::transfer_forms::TransferForm;
 
-/// What is counted: powers of a factor ε on the differences.
+/// Quantities that count as small in an expansion: each carries one factor ε, and the powers of ε
+/// are the orders.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Order {
-    /// On their angles; their momenta stay whole.
+    /// The difference angles; their momenta do not count as small.
     Angle,
-    /// On their angles and momenta alike.
+    /// The difference angles and their momenta; both count as small.
     Amplitude,
 }
 
-/// A tree in power series of `N` coefficients, which gives the transfers of all orders below
-/// `N` at once: [`SymmetricTree::expansion`].
+/// Tree whose state is a power series of `N` coefficients, so that the transfers of all orders
+/// below `N` are computed at once. Created by [`SymmetricTree::expansion`].
 #[derive(Clone, Debug)]
 pub struct OrderedTransfers<T, const N: usize> {
     tree: SymmetricTree<PowerSeries<T, N>>,
-    /// True for each coordinate that counts as small.
+    /// For each symmetric coordinate, true if it counts as small.
     small: Vec<bool>,
     workspace: Workspace<PowerSeries<T, N>>,
     coordinates: Vec<PowerSeries<T, N>>,
@@ -32,8 +34,8 @@ pub struct OrderedTransfers<T, const N: usize> {
 }
 
 impl<T: Scalar> SymmetricTree<T> {
-    /// Returns the tree expanded in the differences of these sectors, or of all where none is
-    /// named by its number, through order `N` − 1.
+    /// Returns the tree expanded up to order `N` − 1 in the differences of the sectors with these
+    /// indices; if `small` is empty, of all sectors.
     #[must_use]
     pub fn expansion<const N: usize>(&self, small: &[usize]) -> OrderedTransfers<T, N> {
         let mut is_small = Vec::with_capacity(self.links());
@@ -51,11 +53,12 @@ impl<T: Scalar> SymmetricTree<T> {
         }
     }
 
-    /// Returns the transfers by a form of W, exact or cut off at an order, all differences small,
-    /// with the memory that they take. [`Angle(1)`](TransferForm::Angle) is the published form.
-    /// None for orders above 15.
+    /// Prepares the evaluation of the energy transfers W in one form, exact or truncated at an
+    /// order with all differences small, together with their workspace.
+    /// [`Angle(1)`](TransferForm::Angle) is the published form. Returns `None` for orders above 15.
     ///
-    /// Where copies differ, an order says less: forcing is of the first order of the differences.
+    /// If copies differ, truncation is less meaningful: the forcing is of first order in the
+    /// differences.
     #[must_use]
     pub fn by_form(&self, form: TransferForm) -> Option<TransfersByForm<'_, T>> {
         let (counted, order) = match form {
@@ -77,16 +80,16 @@ impl<T: Scalar> SymmetricTree<T> {
         })
     }
 
-    /// Writes the transfers into all sectors by a form of W ([`by_form`](Self::by_form)). NaN for
-    /// slices of other lengths, and for orders above 15.
+    /// Writes the energy transfers W (in watts) into all sectors, in one form
+    /// ([`by_form`](Self::by_form)). NaN for slices of a wrong length, and for orders above 15.
     ///
-    /// Truncated forms allocate an [`expansion`](Self::expansion) for each call: keep what
-    /// [`by_form`](Self::by_form) returns for many states.
+    /// Truncated forms allocate an [`expansion`](Self::expansion) at each call: for many states,
+    /// keep the result of [`by_form`](Self::by_form).
     pub fn transfers(
         &self,
         workspace: &mut Workspace<T>,
         form: TransferForm,
-        given: Given<'_, T>,
+        given: StateInput<'_, T>,
         transfers: &mut [Transfer<T>],
     ) {
         if form == TransferForm::Exact {
@@ -103,16 +106,18 @@ impl<T: Scalar> SymmetricTree<T> {
     }
 }
 
-/// Transfers by one form of W, with memory that is kept: [`SymmetricTree::by_form`].
+/// Evaluates the energy transfers W in one form. Holds the workspace for it. Created by
+/// [`SymmetricTree::by_form`].
 #[derive(Clone, Debug)]
 pub struct TransfersByForm<'a, T> {
     tree: &'a SymmetricTree<T>,
-    /// None of the exact form.
+    /// Quantities that are small, order, and expansion of a truncated form; `None` for the exact
+    /// form.
     expansion: Option<(Order, usize, Expansion<T>)>,
     workspace: Workspace<T>,
 }
 
-/// Series of as many coefficients as an order takes.
+/// Expansion of a tree, with as many coefficients as the order needs.
 #[derive(Clone, Debug)]
 enum Expansion<T> {
     Through2(OrderedTransfers<T, 3>),
@@ -130,12 +135,12 @@ impl<'a, T: Scalar> TransfersByForm<'a, T> {
         }
     }
 
-    /// Writes the transfers into all sectors at symmetric coordinates and their momenta.
-    /// Allocates the first time. NaN for slices of other lengths.
+    /// Writes the energy transfers (W) into all sectors at symmetric coordinates and their momenta.
+    /// Allocates at the first call. NaN for slices of a wrong length.
     pub fn transfers(&mut self, [coordinates, momenta]: [&[T]; 2], transfers: &mut [Transfer<T>]) {
         let state = [coordinates, momenta];
         let Some((counted, order, expansion)) = &mut self.expansion else {
-            let given = Given::Momenta {
+            let given = StateInput::Momenta {
                 coordinates,
                 momenta,
             };
@@ -152,12 +157,12 @@ impl<'a, T: Scalar> TransfersByForm<'a, T> {
 }
 
 impl<T: Scalar, const N: usize> OrderedTransfers<T, N> {
-    /// Writes the transfers into all sectors through an order, at symmetric coordinates and
-    /// their momenta. Allocates the first time. NaN for slices of other lengths, and for orders
-    /// that the series do not have.
+    /// Writes the energy transfers (W) into all sectors, truncated at an order, at symmetric
+    /// coordinates and their momenta. Allocates at the first call. NaN for slices of a wrong
+    /// length, and for orders that the series do not contain.
     ///
-    /// Where all differences are small and no copies differ, orders of the amplitude below the
-    /// second vanish and are left out, so that their rounding is.
+    /// If all differences are small and no copies differ, orders of the amplitude below the second
+    /// vanish so they are left out together with their rounding errors.
     pub fn transfers(
         &mut self,
         counted: Order,
@@ -173,7 +178,7 @@ impl<T: Scalar, const N: usize> OrderedTransfers<T, N> {
             return;
         }
         self.set_state(counted, [coordinates, momenta]);
-        let given = Given::Momenta {
+        let given = StateInput::Momenta {
             coordinates: &self.coordinates,
             momenta: &self.momenta,
         };
@@ -188,8 +193,8 @@ impl<T: Scalar, const N: usize> OrderedTransfers<T, N> {
                 kinetic,
                 potential,
             } = terms;
-            // K is meant through the order and differentiated then: its slope in the
-            // differences has one order less.
+            // K is truncated at the order and then differentiated: its slope in the differences has
+            // one order less.
             let slope = match (counted, is_small) {
                 (Order::Angle, true) if order == 0 => T::from_f64(0.0),
                 (Order::Angle, true) => driven.sum(first..=order - 1),
@@ -202,7 +207,8 @@ impl<T: Scalar, const N: usize> OrderedTransfers<T, N> {
         });
     }
 
-    /// Takes the state as series: what counts as small is linear.
+    /// Sets the state. Each coordinate that counts as small becomes a power series with a linear
+    /// term only.
     fn set_state(&mut self, counted: Order, [coordinates, momenta]: [&[T]; 2]) {
         let zero = T::from_f64(0.0);
         let places = self.coordinates.iter_mut().zip(&mut self.momenta);
@@ -217,7 +223,7 @@ impl<T: Scalar, const N: usize> OrderedTransfers<T, N> {
         }
     }
 
-    /// Returns true if the first two orders vanish.
+    /// Returns true if the terms of orders 0 and 1 of the transfers vanish.
     fn is_quadratic(&self, counted: Order) -> bool {
         let is_small = |own| {
             let small = self.small.get::<core::ops::Range<usize>>(own);

@@ -1,5 +1,6 @@
-//! Energies of sectors by Parseval (physics (9.3), (9.6)): with the velocities of the centres
-//! of mass in each sector they sum to H.
+//! Energies of sectors by Parseval's identity (physics (9.3), (9.6)): a sector's kinetic energy is
+//! computed from its part of the centre-of-mass velocities, so that the energies of all sectors sum
+//! to H.
 
 use super::SymmetricTree;
 use super::memory::FreeMemory;
@@ -7,19 +8,20 @@ use super::motion::TreeMotion;
 use super::shape::BlockShape;
 use crate::scalar::Scalar;
 
-/// Velocities of the centres of mass.
+/// Velocities of the centres of mass of the links.
 pub(super) struct Centres<'w, T> {
     x: &'w mut [T],
     y: &'w mut [T],
 }
 
-/// Numbers for each link: of the centres, those that every share keeps, and while one is formed.
+/// Workspace lengths, in numbers per link: for the centres of mass, for the results kept for a
+/// sector, and for temporary values of a sector.
 pub(super) const CENTRES: usize = 2;
 pub(super) const KEPT: usize = 2;
 pub(super) const FORMED: usize = 5;
 
-/// Kinetic energy of a sector, with its derivatives by the angular velocities and by the
-/// angles.
+/// Kinetic energy of one sector, with its derivatives by the angular velocities and by the angles
+/// of the links.
 pub(super) struct ParsevalShare<'w, T> {
     pub(super) kinetic: T,
     pub(super) by_omega: &'w mut [T],
@@ -40,19 +42,24 @@ impl<T: Scalar> SymmetricTree<T> {
             let mut base = [T::from_f64(0.0); 2];
             if let Some(parent) = self.shape.parents[link] {
                 let [along, across] = body.pivot;
-                let turn = self.turn([along, across], motion, parent);
+                let turn = self.point_velocity([along, across], motion, parent);
                 base = [pivot_x[parent] + turn[0], pivot_y[parent] + turn[1]];
             }
             [pivot_x[link], pivot_y[link]] = base;
-            let turn = self.turn(body.com, motion, link);
+            let turn = self.point_velocity(body.com, motion, link);
             [x[link], y[link]] = [base[0] + turn[0], base[1] + turn[1]];
         }
         Centres { x, y }
     }
 
-    /// Velocity of a point of a link against the link's pivot.
+    /// Returns the velocity (m/s) of a point of a link relative to the link's pivot.
     #[inline(always)]
-    fn turn(&self, [along, across]: [T; 2], motion: &TreeMotion<'_, T>, link: usize) -> [T; 2] {
+    fn point_velocity(
+        &self,
+        [along, across]: [T; 2],
+        motion: &TreeMotion<'_, T>,
+        link: usize,
+    ) -> [T; 2] {
         let (sine, cosine) = (motion.sines[link], motion.cosines[link]);
         let omega = motion.omega[link];
         [
@@ -61,7 +68,7 @@ impl<T: Scalar> SymmetricTree<T> {
         ]
     }
 
-    /// The share of a sector in the kinetic energy.
+    /// Computes the part of the kinetic energy that belongs to a sector.
     pub(super) fn share<'w>(
         &self,
         block: &BlockShape,
@@ -93,8 +100,8 @@ impl<T: Scalar> SymmetricTree<T> {
                 spin[link] = weight * body.inertia * w;
             }
         }
-        // From the leaves on: the moment, in the frame that turns with the link, of the momenta
-        // of the link and of all that hangs from it.
+        // From the leaves to the root: the moment, in the frame that rotates with the link, of the
+        // momenta of the link and of all that hangs from it.
         for numbers in [&mut *by_omega, by_theta, carried_x, carried_y] {
             numbers.fill(zero);
         }
@@ -122,7 +129,7 @@ impl<T: Scalar> SymmetricTree<T> {
     }
 }
 
-/// conj(λ) · z of a place λ and a momentum z.
+/// Computes conj(λ) · z, with the position λ and the momentum z as complex numbers.
 #[inline(always)]
 fn moment<T: Scalar>([along, across]: [T; 2], [x, y]: [T; 2]) -> [T; 2] {
     [along * x + across * y, along * y - across * x]

@@ -1,20 +1,21 @@
-//! Symmetric matrices whose entries stand between links and the links above them.
+//! Symmetric matrices with entries between links and their ancestors only.
 
 use alloc::vec::Vec;
 use core::ops::Range;
 
 use crate::scalar::Scalar;
 
-/// Places of the entries of such a matrix: the diagonal, and for each link one for each link
-/// above it, the nearest first.
+/// Sparsity pattern of a symmetric matrix: the diagonal, and for each link one entry per ancestor,
+/// the nearest ancestor first.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) struct Pattern {
+pub(super) struct MatrixPattern {
     starts: Vec<usize>,
     above: Vec<usize>,
 }
 
-impl Pattern {
-    /// The pattern of links that hang from these, each of which stands before it.
+impl MatrixPattern {
+    /// Creates the pattern of links with the given parents, each of which comes before its
+    /// children.
     pub(super) fn new(parents: impl Iterator<Item = Option<usize>>) -> Self {
         let (mut starts, mut above) = (alloc::vec![0], Vec::new());
         for parent in parents {
@@ -28,29 +29,29 @@ impl Pattern {
         Self { starts, above }
     }
 
-    /// Number of rows.
+    /// Returns the number of rows.
     pub(super) fn rows(&self) -> usize {
         self.starts.len() - 1
     }
 
-    /// Number of entries beside the diagonal.
+    /// Returns the number of off-diagonal entries of the matrix.
     pub(super) fn entries(&self) -> usize {
         self.above.len()
     }
 
-    /// The entries of a row.
+    /// Returns the indices of the entries of a row.
     #[inline(always)]
     fn row(&self, row: usize) -> Range<usize> {
         self.starts[row]..self.starts[row + 1]
     }
 
-    /// Place of the entry of a row and the one so many steps above its parent.
+    /// Returns the index of the entry between a row and the ancestor `step` steps above its parent.
     #[inline(always)]
-    pub(super) fn place(&self, row: usize, step: usize) -> usize {
+    pub(super) fn entry_index(&self, row: usize, step: usize) -> usize {
         self.starts[row] + step
     }
 
-    /// All entries beside the diagonal: their place, row and column.
+    /// Iterates over all off-diagonal entries: index, row and column.
     #[inline(always)]
     pub(super) fn iter(&self) -> impl Iterator<Item = (usize, usize, usize)> {
         let rows = 0..self.rows();
@@ -60,14 +61,14 @@ impl Pattern {
         })
     }
 
-    /// Rows from a row to the root, itself first, with the place of its entry with each.
+    /// Iterates over the row and its ancestors up to the root, each with the index of its entry.
     #[inline(always)]
     pub(super) fn upwards(&self, row: usize) -> impl Iterator<Item = (usize, usize)> {
         self.row(row).map(|place| (place, self.above[place]))
     }
 }
 
-/// Entries of a matrix with a pattern.
+/// Entries of a symmetric matrix whose sparsity pattern is known.
 #[derive(Debug)]
 pub(super) struct Entries<'a, T> {
     pub(super) diagonal: &'a mut [T],
@@ -75,9 +76,9 @@ pub(super) struct Entries<'a, T> {
 }
 
 impl<T: Scalar> Entries<'_, T> {
-    /// Turns the matrix into D⁻¹ and L of LᵀDL (physics (2.1)): links are eliminated from the
-    /// leaves up, and no entry comes to be.
-    pub(super) fn factor(&mut self, pattern: &Pattern) {
+    /// Factorises the matrix M = LᵀDL in place: the entries become D⁻¹ and L (physics (2.1)). Links
+    /// are eliminated from the leaves upwards, without fill-in.
+    pub(super) fn factor(&mut self, pattern: &MatrixPattern) {
         for row in (0..pattern.rows()).rev() {
             let own = pattern.row(row);
             let inverse = T::from_f64(1.0) / self.diagonal[row];
@@ -95,8 +96,8 @@ impl<T: Scalar> Entries<'_, T> {
         }
     }
 
-    /// Solves with the factors.
-    pub(super) fn solve(&self, pattern: &Pattern, values: &mut [T]) {
+    /// Solves a linear system in place, with the factors D⁻¹ and L of its matrix.
+    pub(super) fn solve(&self, pattern: &MatrixPattern, values: &mut [T]) {
         for row in (0..pattern.rows()).rev() {
             for (place, column) in pattern.upwards(row) {
                 values[column] = values[column] - self.beside[place] * values[row];
@@ -112,9 +113,10 @@ impl<T: Scalar> Entries<'_, T> {
     }
 }
 
-/// Writes the product of a matrix and a vector.
+/// Writes the product of a symmetric matrix (`diagonal` and off-diagonal entries `beside`) and a
+/// vector.
 pub(super) fn multiply<T: Scalar>(
-    pattern: &Pattern,
+    pattern: &MatrixPattern,
     diagonal: &[T],
     beside: &[T],
     vector: &[T],
@@ -129,10 +131,10 @@ pub(super) fn multiply<T: Scalar>(
     }
 }
 
-/// Writes the derivatives of xᵀ M y by each angle, with `slopes` those of the entries by the
-/// angle of their row, the negative of those by the angle of their column.
+/// Writes the derivatives of xᵀ M y by each angle. `slopes` are the derivatives of the entries of M
+/// by the angle of their row; the derivatives by the angle of their column have the opposite sign.
 pub(super) fn write_slopes<T: Scalar>(
-    pattern: &Pattern,
+    pattern: &MatrixPattern,
     slopes: &[T],
     [x, y]: [&[T]; 2],
     result: &mut [T],

@@ -1,10 +1,10 @@
-//! Energies of sectors from their momenta, and the energy transfer W into them without
-//! truncation (physics (5.5), (9.5), (9.8), (14.5)).
+//! Energies of sectors from their momenta, and the energy transfer W into them without truncation
+//! (physics (5.5), (9.5), (9.8), (14.5)).
 //!
-//! With x the angular velocities that a sector's momenta alone have, k the derivatives of K by
-//! the angles at fixed velocities, and M_ij, i below j, within the sector:
+//! x are the angular velocities that belong to a sector's momenta alone, k the derivatives of K by
+//! the angles at fixed velocities, and M_ij, with i below j, entries within the sector:
 //! {E_s, K − T_s} = Σ x_i k_i + ∂V_s/∂θ_i (ω_i − x_i) − Σ (∂M_ij/∂θ_i) x_i x_j (ω_i − ω_j),
-//! {E_s, U − V_s} = Σ x_i (∂V_s/∂θ_i − ∂U/∂θ_i). No inverse and no expansion.
+//! {E_s, U − V_s} = Σ x_i (∂V_s/∂θ_i − ∂U/∂θ_i). There is no inverse and no expansion.
 
 use super::SymmetricTree;
 use super::constants::MassConstants;
@@ -14,33 +14,35 @@ use super::shape::BlockShape;
 use crate::model::Transfer;
 use crate::scalar::Scalar;
 
-/// A sector by itself, with constants that are equal in all copies.
+/// Energy, velocities and derivatives of a single sector, computed with constants that are equal in
+/// all copies.
 pub(super) struct Alone<'w, T> {
-    /// T_s and V_s.
+    /// Kinetic energy T_s and potential energy V_s of the sector, in J.
     pub(super) energy: [T; 2],
-    /// ∂T_s/∂p, as angular velocities of its links.
+    /// Derivatives ∂T_s/∂p, as angular velocities of the sector's links.
     pub(super) velocities: &'w [T],
-    /// ∂V_s/∂θ.
+    /// Derivatives ∂V_s/∂θ.
     pub(super) fall: &'w [T],
-    /// ∂M_ij/∂θ_i where T_s depends on the angles.
+    /// Derivatives ∂M_ij/∂θ_i, if T_s depends on the angles.
     pub(super) slopes: Option<&'w [T]>,
 }
 
-/// What the rest of a tree does to a sector: angular velocities and slopes of K and U.
+/// Motion of the whole tree around a sector: angular velocities of all links, and derivatives of
+/// the energies K and U by the angles.
 pub(super) struct Surroundings<'w, T> {
     pub(super) omega: &'w [T],
     pub(super) slopes: SlopesOfEnergies<'w, T>,
 }
 
-/// W_s by its parts.
+/// Terms of the transfer W_s into a sector.
 #[derive(Clone, Copy)]
 pub(super) struct TransferTerms<T> {
-    /// Σ x_i k_i: where K is meant through an order in the angles of the differences and
-    /// differentiated then, this counts one less.
+    /// Term Σ x_i k_i of the transfer (see the module for x and k). If K is truncated at an order
+    /// in the difference angles and then differentiated, this term has one order less.
     pub(super) driven: T,
-    /// The rest of {E_s, K − T_s}.
+    /// Remaining terms of the kinetic part {E_s, K − T_s} of the transfer.
     pub(super) kinetic: T,
-    /// {E_s, U − V_s}.
+    /// Potential part {E_s, U − V_s} of the transfer.
     pub(super) potential: T,
 }
 
@@ -53,13 +55,14 @@ impl<T: Scalar> TransferTerms<T> {
     }
 }
 
-/// Numbers for a sector by itself.
-pub(super) fn room([rows, entries]: [usize; 2], links: usize) -> usize {
+/// Returns the length of the workspace, in numbers, for a single sector.
+pub(super) fn workspace_len([rows, entries]: [usize; 2], links: usize) -> usize {
     2 * links + 2 * rows + entries
 }
 
 impl<T: Scalar> SymmetricTree<T> {
-    /// The sector of a block, with its kinetic energy from the block at the configuration.
+    /// Computes the energy of one sector and its derivatives, with the block of the mass matrix at
+    /// the current angles.
     #[inline]
     pub(super) fn alone<'w>(
         &self,
@@ -74,7 +77,8 @@ impl<T: Scalar> SymmetricTree<T> {
         self.alone_of(block, constants, matrix, slopes, motion, memory)
     }
 
-    /// The sector of a block, with its kinetic energy from the block at rest.
+    /// Computes the energy of one sector and its derivatives, with the block of the mass matrix at
+    /// equilibrium.
     #[inline]
     pub(super) fn alone_at_rest<'w>(
         &self,
@@ -102,7 +106,8 @@ impl<T: Scalar> SymmetricTree<T> {
         let twice = block.write_velocities(&shape.pattern, matrix, momenta, memory, velocities);
         let turns = [motion.sines, motion.cosines];
         let (own, parents) = ((&self.springs, &self.chords), &shape.parents);
-        let potential = block.write_fall(constants, own, parents, motion.theta, turns, fall);
+        let potential =
+            block.write_potential_slopes(constants, own, parents, motion.theta, turns, fall);
         Alone {
             energy: [T::from_f64(0.5) * twice, potential],
             velocities,
@@ -111,7 +116,7 @@ impl<T: Scalar> SymmetricTree<T> {
         }
     }
 
-    /// {E_s, H} by its parts.
+    /// Computes the transfer {E_s, H} into a sector, split into its terms.
     #[inline]
     pub(super) fn terms(
         &self,
@@ -133,7 +138,7 @@ impl<T: Scalar> SymmetricTree<T> {
         }
     }
 
-    /// Σ (∂M_ij/∂θ_i) x_i x_j (ω_i − ω_j).
+    /// Computes Σ (∂M_ij/∂θ_i) x_i x_j (ω_i − ω_j) over the pairs of links i below j of a sector.
     #[inline(always)]
     pub(super) fn turning(&self, block: &BlockShape, own: &Alone<'_, T>, omega: &[T]) -> T {
         let zero = T::from_f64(0.0);
@@ -147,7 +152,7 @@ impl<T: Scalar> SymmetricTree<T> {
         })
     }
 
-    /// Σ x_i Q_i of forces Q.
+    /// Computes the power Σ x_i Q_i (W) that generalized forces Q give to a sector.
     #[inline(always)]
     pub(super) fn power(&self, block: &BlockShape, own: &Alone<'_, T>, forces: &[T]) -> T {
         let links = block.links::<T>();

@@ -1,53 +1,55 @@
-//! Sectors as the evaluation takes them: columns of coordinates and patterns of blocks.
+//! Sectors in the form used by the evaluation: the weights of each symmetric coordinate, and the
+//! sparsity pattern of each sector's block of the mass matrix.
 
 use alloc::vec::Vec;
 
-use super::pattern::Pattern;
+use super::pattern::MatrixPattern;
 use crate::scalar::Scalar;
 use crate::sectors::{Sector, SectorCoordinate};
 
-/// What a tree's sectors are, whatever its constants.
+/// Structure of the sectors of a tree, independent of the tree's constants.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct SymmetricShape {
-    pub(super) pattern: Pattern,
+    pub(super) pattern: MatrixPattern,
     pub(super) parents: Vec<Option<usize>>,
     pub(super) sectors: Vec<Sector>,
     pub(super) blocks: Vec<BlockShape>,
 }
 
-/// A sector's block of the mass matrix.
+/// Structure of a sector's block of the mass matrix.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct BlockShape {
     /// Index of the sector's first coordinate.
     pub(super) first: usize,
-    /// Entries between its coordinates.
-    pub(super) pattern: Pattern,
+    /// Entries between the sector's coordinates.
+    pub(super) pattern: MatrixPattern,
     pub(super) columns: Vec<SectorColumn>,
-    /// True for the sector of the means.
+    /// True if this is the sector of the means.
     pub(super) is_mean: bool,
 }
 
-/// A coordinate.
+/// A symmetric coordinate: the weights with which it enters the angles of the links.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct SectorColumn {
     pub(super) weights: Vec<(usize, f64)>,
-    /// Σ weight².
+    /// Sum of the squared weights.
     pub(super) norm: f64,
-    /// True if the links that these hang from are of the sector too.
+    /// True if the parents of the coordinate's links belong to the same sector.
     pub(super) is_below: bool,
 }
 
 impl SymmetricShape {
-    /// None where a link does not stand behind its parent, or the sectors are not those of a
-    /// tree with so many links.
+    /// Creates the structure from the parent of each link and the sectors. Returns `None` if there
+    /// are no links, if a link comes before its parent, or if the sectors are not those of a tree
+    /// with this many links.
     pub(super) fn new(parents: Vec<Option<usize>>, sectors: &[Sector]) -> Option<Self> {
         let links = parents.len();
         let behind = |(link, parent): (usize, &Option<usize>)| parent.is_none_or(|p| p < link);
-        if !parents.iter().enumerate().all(behind) {
+        if parents.is_empty() || !parents.iter().enumerate().all(behind) {
             return None;
         }
         let mut blocks: Vec<BlockShape> = Vec::with_capacity(sectors.len());
-        // Of each link the coordinate of the last sector that it was met in.
+        // For each link, the coordinate of the last sector in which it occurred.
         let mut own = alloc::vec![(usize::MAX, 0); links];
         let mut first = 0;
         for (number, sector) in sectors.iter().enumerate() {
@@ -67,27 +69,27 @@ impl SymmetricShape {
             }
             blocks.push(BlockShape {
                 first,
-                pattern: Pattern::new(above.into_iter()),
+                pattern: MatrixPattern::new(above.into_iter()),
                 columns,
                 is_mean: number == 0,
             });
             first += sector.coordinates().len();
         }
         (first == links).then(|| Self {
-            pattern: Pattern::new(parents.iter().copied()),
+            pattern: MatrixPattern::new(parents.iter().copied()),
             parents,
             sectors: sectors.to_vec(),
             blocks,
         })
     }
 
-    /// Number of links.
+    /// Returns the number of links.
     #[inline(always)]
     pub(super) fn links(&self) -> usize {
         self.parents.len()
     }
 
-    /// Rows and entries of the largest block.
+    /// Returns the number of rows and the number of off-diagonal entries of the largest block.
     pub(super) fn largest_block(&self) -> [usize; 2] {
         let blocks = self.blocks.iter().map(|block| &block.pattern);
         blocks.fold([0; 2], |[rows, entries], own| {
@@ -105,7 +107,7 @@ impl SectorColumn {
         }
     }
 
-    /// Links and their weights.
+    /// Iterates over the links of the coordinate and their weights.
     #[inline(always)]
     pub(super) fn iter<T: Scalar>(&self) -> impl Iterator<Item = (usize, T)> {
         self.weights
@@ -113,7 +115,7 @@ impl SectorColumn {
             .map(|&(link, weight)| (link, T::from_f64(weight)))
     }
 
-    /// Σ weight · value.
+    /// Returns Σ weight · value.
     #[inline(always)]
     pub(super) fn sum<T: Scalar>(&self, value: impl Fn(usize) -> T) -> T {
         let own = self.iter();
@@ -123,8 +125,8 @@ impl SectorColumn {
     }
 }
 
-/// Returns weights in an order in which their partial sums stay small: equal values cancel before
-/// sums of many of them are rounded, so that differences of equal numbers are zero exactly.
+/// Sorts weights so that their partial sums stay small: equal values cancel before sums of many of
+/// them are rounded, so that differences of equal numbers are exactly zero.
 fn balanced(weights: &[(usize, f64)]) -> Vec<(usize, f64)> {
     let (above, below): (Vec<_>, Vec<_>) = weights
         .iter()
@@ -144,7 +146,7 @@ fn balanced(weights: &[(usize, f64)]) -> Vec<(usize, f64)> {
 }
 
 impl BlockShape {
-    /// Links of the sector, with the number of their coordinate and their weight.
+    /// Iterates over the links of the sector, with the index of their coordinate and their weight.
     #[inline(always)]
     pub(super) fn links<T: Scalar>(&self) -> impl Iterator<Item = (usize, usize, T)> {
         let columns = self.columns.iter().enumerate();
@@ -154,12 +156,12 @@ impl BlockShape {
         })
     }
 
-    /// Pairs of a link and one above it that are both of the sector: the place of their entry,
-    /// the link and the one above.
+    /// Iterates over pairs of a link and an ancestor that both belong to the sector: index of the
+    /// entry, link and ancestor.
     #[inline(always)]
     pub(super) fn pairs<'a>(
         &'a self,
-        tree: &'a Pattern,
+        tree: &'a MatrixPattern,
     ) -> impl Iterator<Item = (usize, usize, usize)> {
         let columns = self.columns.iter().enumerate();
         columns.flat_map(move |(index, column)| {

@@ -7,28 +7,30 @@ use super::shape::{BlockShape, SectorColumn, SymmetricShape};
 use crate::scalar::{Double, Scalar, at};
 use crate::spring_dampers::{SpringDamper, SpringDampers};
 
-/// The springs' energy as a sum over sectors, each of its own coordinates alone.
+/// Energy of the springs between links, as a sum over sectors; each term depends on the coordinates
+/// of one sector only.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct SectorSprings<T> {
-    /// Stiffness that single coordinates have by themselves, by their index: Σ κ (w_a − w_b)²/Σ w²
-    /// with the weights of the links that a spring is between. Empty without springs.
+    /// Stiffness (N m) of each symmetric coordinate: Σ κ (w_a − w_b)²/Σ w², with the weights w of
+    /// the two links that a spring of stiffness κ connects. Empty without springs.
     single: Vec<T>,
-    /// Strains of several coordinates, or with a rest angle.
+    /// Spring strains that depend on several coordinates of a sector, or have a rest angle.
     strains: Vec<SectorStrain<T>>,
 }
 
-/// Part of a spring's strain that is of one sector: u = Σ c θ − ρ with the energy ½ κ u².
+/// Part of a spring's strain that belongs to one sector: u = Σ c θ − ρ, with weights c and rest
+/// angle ρ. Its energy is ½ κ u².
 #[derive(Clone, Debug, PartialEq)]
 struct SectorStrain<T> {
     /// Index of the sector's first coordinate.
     first: usize,
     stiffness: T,
     rest: T,
-    /// Weights c of the links' angles.
+    /// Weights c of the angles in the strain, by link.
     weights: Vec<(usize, T)>,
 }
 
-/// None.
+/// No springs.
 impl<T> Default for SectorSprings<T> {
     fn default() -> Self {
         Self {
@@ -38,7 +40,8 @@ impl<T> Default for SectorSprings<T> {
     }
 }
 
-/// A coordinate in the strain of a spring: its index and sector, and its weight there.
+/// Contribution of a symmetric coordinate to the strain of a spring: index of the coordinate, its
+/// sector, and its weight.
 struct Term<'s> {
     index: usize,
     block: &'s BlockShape,
@@ -47,8 +50,9 @@ struct Term<'s> {
 }
 
 impl<T: Scalar> SectorSprings<T> {
-    /// None where springs couple sectors, or are at rest where copies differ. Springs of several
-    /// pairs of links may leave the sectors uncoupled together.
+    /// Sorts the springs by sector. Returns `None` if they couple sectors, or if a spring is
+    /// relaxed only when copies differ. Springs of several pairs of links may together leave the
+    /// sectors uncoupled.
     pub(super) fn of(
         shape: &SymmetricShape,
         spring_dampers: &SpringDampers<Double>,
@@ -105,14 +109,15 @@ impl<T: Scalar> SectorSprings<T> {
         }
     }
 
-    /// Returns true without springs.
+    /// Returns true if there are no springs.
     pub(super) fn is_empty(&self) -> bool {
         self.single.is_empty()
     }
 
-    /// Adds the slopes of the energy of a sector by the angles of the links, and returns it.
+    /// Adds the derivatives of the springs' energy in one sector by the angles of the links to
+    /// `slopes`, and returns that energy (J).
     #[inline(always)]
-    pub(super) fn add_fall(&self, block: &BlockShape, theta: &[T], slopes: &mut [T]) -> T {
+    pub(super) fn add_slopes(&self, block: &BlockShape, theta: &[T], slopes: &mut [T]) -> T {
         let (zero, half) = (T::from_f64(0.0), T::from_f64(0.5));
         let mut energy = zero;
         if self.is_empty() {
@@ -164,7 +169,7 @@ impl<T: Scalar> SectorStrain<T> {
     }
 }
 
-/// The coordinates of which a spring's strain is a sum, in their order.
+/// Returns the symmetric coordinates that contribute to the strain of a spring, in ascending order.
 fn terms<'s>(shape: &'s SymmetricShape, spring: &SpringDamper<Double>) -> Vec<Term<'s>> {
     let zero = Double::from_f64(0.0);
     let [a, b] = spring.links;
@@ -192,8 +197,8 @@ fn norm(column: &SectorColumn) -> Double {
     Double::from_f64(column.norm)
 }
 
-/// Adds κ w_i w_j of two coordinates of different sectors to the sum over all springs, and its
-/// size to that of the sizes.
+/// Adds κ w_i w_j, for each pair of coordinates of different sectors, to the sum over all springs,
+/// and its magnitude to the sum of magnitudes. Sectors are uncoupled if all sums vanish.
 fn add_products_across(
     stiffness: Double,
     terms: &[Term<'_>],

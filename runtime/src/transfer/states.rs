@@ -1,27 +1,31 @@
-//! Momenta, velocities and the energy H.
+//! Conversions between velocities and momenta of a state, and its energy H.
 
 use super::memory::FreeMemory;
-use super::motion::{TreeMotion, factors, room};
-use super::{Given, NonConservative, SymmetricTree};
+use super::motion::{TreeMotion, factors, workspace_len};
+use super::{NonConservative, StateInput, SymmetricTree};
 use crate::scalar::Scalar;
 use crate::sectors::{Normalisation, Sectors};
 use crate::system::Workspace;
 
 impl<T: Scalar> SymmetricTree<T> {
-    /// Writes the momenta (kg m²/s) of the symmetric coordinates; NaN for slices of another
-    /// length than there are links.
-    pub fn momenta(&self, workspace: &mut Workspace<T>, given: Given<'_, T>, momenta: &mut [T]) {
+    /// Writes the momenta (kg m²/s) of the symmetric coordinates; NaN if a slice does not have one
+    /// number per link.
+    pub fn momenta(
+        &self,
+        workspace: &mut Workspace<T>,
+        given: StateInput<'_, T>,
+        momenta: &mut [T],
+    ) {
         self.write(workspace, given, momenta, |motion, momenta| {
             momenta.copy_from_slice(motion.momenta);
         });
     }
 
-    /// Writes the symmetric coordinates (rad); NaN for slices of another length than there are
-    /// links.
+    /// Writes the symmetric coordinates (rad); NaN if a slice does not have one number per link.
     pub fn coordinates(
         &self,
         workspace: &mut Workspace<T>,
-        given: Given<'_, T>,
+        given: StateInput<'_, T>,
         coordinates: &mut [T],
     ) {
         self.write(workspace, given, coordinates, |motion, coordinates| {
@@ -29,20 +33,20 @@ impl<T: Scalar> SymmetricTree<T> {
         });
     }
 
-    /// Writes the rates (rad/s) of the symmetric coordinates; NaN for slices of another length
-    /// than there are links.
-    pub fn rates(&self, workspace: &mut Workspace<T>, given: Given<'_, T>, rates: &mut [T]) {
+    /// Writes the rates (rad/s) of the symmetric coordinates; NaN if a slice does not have one
+    /// number per link.
+    pub fn rates(&self, workspace: &mut Workspace<T>, given: StateInput<'_, T>, rates: &mut [T]) {
         self.write(workspace, given, rates, |motion, rates| {
             self.symmetric_from_absolute(Normalisation::Plain, motion.omega, rates);
         });
     }
 
-    /// Writes the angles (rad) and the angular velocities (rad/s) of the links; NaN for slices
-    /// of another length than there are links.
+    /// Writes the angles (rad) and the angular velocities (rad/s) of the links; NaN if a slice does
+    /// not have one number per link.
     pub fn absolute(
         &self,
         workspace: &mut Workspace<T>,
-        given: Given<'_, T>,
+        given: StateInput<'_, T>,
         [theta, omega]: [&mut [T]; 2],
     ) {
         self.write(workspace, given, theta, |motion, theta| {
@@ -53,16 +57,17 @@ impl<T: Scalar> SymmetricTree<T> {
         });
     }
 
-    /// Writes the accelerations (rad/s²) of the links that forces add to those by gravity and
-    /// springs: M⁻¹ Q. NaN for slices of another length than there are links.
+    /// Writes the accelerations M⁻¹ Q (rad/s²) of the links that the forces Q (friction, drive,
+    /// external torques) add to those caused by gravity and springs. NaN if a slice does not have
+    /// one number per link.
     pub fn accelerations_by(
         &self,
         workspace: &mut Workspace<T>,
         acting: NonConservative<'_, T>,
-        given: Given<'_, T>,
+        given: StateInput<'_, T>,
         accelerations: &mut [T],
     ) {
-        let mut memory = FreeMemory(workspace.numbers(self.state_room()));
+        let mut memory = FreeMemory(workspace.numbers(self.state_workspace_len()));
         match self.motion(given, &mut memory) {
             Some(motion) if accelerations.len() == self.links() => {
                 accelerations.fill(T::from_f64(0.0));
@@ -73,22 +78,22 @@ impl<T: Scalar> SymmetricTree<T> {
         }
     }
 
-    /// Returns the energy H = K + U (J), zero where all angles are zero, nothing moves and the
-    /// springs are at rest; NaN for slices of another length than there are links.
+    /// Returns the energy H = K + U (J), which is zero if all angles are zero, nothing moves and
+    /// the springs are at rest; NaN if a slice does not have one number per link.
     #[must_use]
-    pub fn hamiltonian(&self, workspace: &mut Workspace<T>, given: Given<'_, T>) -> T {
+    pub fn hamiltonian(&self, workspace: &mut Workspace<T>, given: StateInput<'_, T>) -> T {
         let [kinetic, potential] = self.kinetic_and_potential_energy(workspace, given);
         kinetic + potential
     }
 
-    /// Returns K and U (J), as [`hamiltonian`](Self::hamiltonian) sums them.
+    /// Returns K and U (J), the terms of [`hamiltonian`](Self::hamiltonian).
     #[must_use]
     pub fn kinetic_and_potential_energy(
         &self,
         workspace: &mut Workspace<T>,
-        given: Given<'_, T>,
+        given: StateInput<'_, T>,
     ) -> [T; 2] {
-        let mut memory = FreeMemory(workspace.numbers(self.state_room()));
+        let mut memory = FreeMemory(workspace.numbers(self.state_workspace_len()));
         let Some(motion) = self.motion(given, &mut memory) else {
             return [T::from_f64(f64::NAN); 2];
         };
@@ -99,7 +104,7 @@ impl<T: Scalar> SymmetricTree<T> {
         [T::from_f64(0.5) * twice, self.potential_energy(&motion)]
     }
 
-    /// Writes the momenta of the absolute angles.
+    /// Writes the momenta that belong to the absolute angles of the links.
     pub(super) fn write_absolute_momenta(&self, motion: &TreeMotion<'_, T>, momenta: &mut [T]) {
         let plain = Normalisation::Plain;
         self.absolute_momenta_from_symmetric(plain, motion.momenta, momenta);
@@ -108,19 +113,19 @@ impl<T: Scalar> SymmetricTree<T> {
     fn write(
         &self,
         workspace: &mut Workspace<T>,
-        given: Given<'_, T>,
+        given: StateInput<'_, T>,
         values: &mut [T],
         write: impl FnOnce(&TreeMotion<'_, T>, &mut [T]),
     ) {
-        let mut memory = FreeMemory(workspace.numbers(self.state_room()));
+        let mut memory = FreeMemory(workspace.numbers(self.state_workspace_len()));
         match self.motion(given, &mut memory) {
             Some(motion) if values.len() == self.links() => write(&motion, values),
             _ => values.fill(T::from_f64(f64::NAN)),
         }
     }
 
-    fn state_room(&self) -> usize {
+    fn state_workspace_len(&self) -> usize {
         let (links, entries) = (self.links(), self.shape.pattern.entries());
-        room(links, entries) + links + factors(links, entries)
+        workspace_len(links, entries) + links + factors(links, entries)
     }
 }

@@ -1,73 +1,74 @@
-//! One line between two points: its arms, what it stores energy by, and its pull.
+//! Line between two points of a tree: its arms (one per link), its potential energy, and the force
+//! along it.
 
 use alloc::vec::Vec;
 
 use crate::scalar::Scalar;
 use crate::simd::Simd;
 
-/// The part of a line that turns with a link.
+/// Arm of a line: its part that rotates with one link.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct LineArm<T> {
-    /// Number of the link.
+    /// Index of the link.
     pub link: usize,
-    /// Component along the link, m.
+    /// Component along the link, in m.
     pub along: T,
-    /// Component across the link, m.
+    /// Component across the link, in m.
     pub lateral: T,
 }
 
-/// A term of the energy that a line stores, by its length ℓ. In SI units.
+/// A term of a line's potential energy, as a function of its length ℓ. In SI units.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum LinePotential<T> {
-    /// The energy ½ κ (ℓ − L₀)² of a spring.
+    /// Energy ½ κ (ℓ − L₀)² of a spring.
     Spring {
-        /// Stiffness κ, N/m.
+        /// Stiffness κ, in N/m.
         stiffness: T,
-        /// Length L₀ at rest, m; none for a spring whose length at rest is zero.
+        /// Rest length L₀, in m; `None` if it is zero.
         rest: Option<T>,
     },
-    /// The energy A/ℓⁿ of a force by a power of the distance, which repels where A is positive.
+    /// Energy A/ℓⁿ of a power law of the distance; the force is repulsive if A is positive.
     InversePower {
-        /// Strength A, J mⁿ.
+        /// Strength A, in J mⁿ.
         strength: T,
-        /// Exponent n: 1 of charges, 3 of point dipoles whose axes stand perpendicular to the plane.
+        /// Exponent n: 1 for charges, 3 for point dipoles with axes perpendicular to the plane.
         exponent: u32,
     },
 }
 
-/// What stores energy by the length of the line between two points, and a viscous damper along it,
-/// in SI units.
+/// A force along the line between two points: potential energy as a function of the distance, and a
+/// viscous damper. In SI units.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct TranslationalSpringDamper<T> {
-    /// Arms of the line, of each link one at most.
+    /// Arms of the line, at most one for each link.
     pub arms: Vec<LineArm<T>>,
-    /// The part of the line that no angle turns: x, and y against the direction of links of
-    /// angle 0.
+    /// Constant part of the line, which does not rotate with any link: x, and y upwards (opposite
+    /// to a link at angle 0), in m.
     pub offset: [T; 2],
-    /// Terms of the energy, in the order in which they are added.
+    /// Terms of the energy, in the order in which they are summed.
     pub potentials: Vec<LinePotential<T>>,
-    /// Viscous friction c, N s/m, where there is a damper.
+    /// Coefficient c of viscous friction, in N s/m, if there is a damper.
     pub friction: Option<T>,
 }
 
 /// A line at one configuration.
 #[derive(Clone, Copy)]
 pub(super) struct Line<T> {
-    /// From the first point to the second one.
+    /// Vector from the first point of the line to the second, in m.
     offset: [T; 2],
-    /// Rate of that; zero at rest.
+    /// Rate of change of that vector, in m/s; zero at rest.
     rate: [T; 2],
 }
 
-/// What pulls along a line. Said by name, as with spring-dampers: closures are functions of their
-/// own where numbers are vector registers.
+/// Selects the forces along a line. This is an enum instead of a closure, because each closure
+/// would be compiled as a separate function for vector registers.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Pull {
-    /// All that there is.
+    /// All forces.
     Whole,
-    /// What stores energy.
+    /// Forces with a potential energy.
     OfEnergy,
-    /// The damper.
+    /// Force of the damper.
     OfDamper,
 }
 
@@ -77,7 +78,7 @@ fn dot<T: Scalar>([a, b]: [T; 2], [x, y]: [T; 2]) -> T {
 }
 
 impl<T: Copy> LineArm<T> {
-    /// Returns it on other scalars.
+    /// Converts the arm to another scalar.
     #[must_use]
     pub fn map<S>(&self, convert: impl Fn(T) -> S) -> LineArm<S> {
         LineArm {
@@ -89,9 +90,9 @@ impl<T: Copy> LineArm<T> {
 }
 
 impl<T: Scalar> LineArm<T> {
-    /// The arm at an angle of its link.
+    /// Returns the arm rotated by the angle of its link.
     #[inline(always)]
-    pub(crate) fn turned(&self, angle: T) -> [T; 2] {
+    pub(crate) fn rotated(&self, angle: T) -> [T; 2] {
         let (sin, cos) = angle.sin_cos();
         [
             self.along * sin + self.lateral * cos,
@@ -112,7 +113,7 @@ impl<T: Scalar> Line<T> {
     }
 }
 
-/// A power of the length of a line.
+/// Returns a power of the length of a line with components `offset`.
 #[inline(always)]
 pub(crate) fn length_to<T: Scalar>(offset: [T; 2], exponent: u32) -> T {
     let square = dot(offset, offset);
@@ -127,7 +128,7 @@ pub(crate) fn length_to<T: Scalar>(offset: [T; 2], exponent: u32) -> T {
 }
 
 impl<T: Copy> LinePotential<T> {
-    /// Returns it on other scalars.
+    /// Converts the energy term to another scalar.
     #[must_use]
     pub fn map<S>(&self, convert: impl Fn(T) -> S) -> LinePotential<S> {
         match *self {
@@ -144,7 +145,7 @@ impl<T: Copy> LinePotential<T> {
 }
 
 impl<T: Scalar> LinePotential<T> {
-    /// Returns so many times the energy.
+    /// Returns the same energy term, multiplied by `factor`.
     fn times(&self, factor: T) -> Self {
         match *self {
             Self::Spring { stiffness, rest } => Self::Spring {
@@ -158,7 +159,7 @@ impl<T: Scalar> LinePotential<T> {
         }
     }
 
-    /// dU/dℓ over the length of the line.
+    /// Returns the derivative dU/dℓ of the energy term by the line's length ℓ, divided by ℓ.
     #[inline(always)]
     fn pull(&self, line: &Line<T>) -> T {
         match *self {
@@ -180,7 +181,8 @@ impl<T: Scalar> LinePotential<T> {
         }
     }
 
-    /// The part of that which changes with the length: a factor, and m of the power ℓ⁻ᵐ.
+    /// Returns the part of (dU/dℓ)/ℓ that depends on the length ℓ, a multiple of ℓ⁻ᵐ: its factor
+    /// and the exponent m.
     #[inline(always)]
     pub(crate) fn power_of_length(&self) -> Option<(T, u32)> {
         match *self {
@@ -192,7 +194,7 @@ impl<T: Scalar> LinePotential<T> {
         }
     }
 
-    /// U.
+    /// Returns the energy U.
     #[inline(always)]
     fn energy(&self, line: &Line<T>) -> T {
         let half = T::from_f64(0.5);
@@ -216,7 +218,7 @@ impl<T: Scalar> LinePotential<T> {
 }
 
 impl<T: Copy> TranslationalSpringDamper<T> {
-    /// Returns it on other scalars.
+    /// Converts the line to another scalar.
     #[must_use]
     pub fn map<S>(&self, convert: impl Fn(T) -> S) -> TranslationalSpringDamper<S> {
         let potentials = self.potentials.iter();
@@ -231,7 +233,7 @@ impl<T: Copy> TranslationalSpringDamper<T> {
 }
 
 impl<T: Scalar> TranslationalSpringDamper<T> {
-    /// Returns the same line with so many times the energy, and as many times the friction.
+    /// Returns the line with its energy and its friction multiplied by `factor`.
     #[must_use]
     pub fn times(&self, factor: T) -> Self {
         let potentials = self.potentials.iter();
@@ -242,18 +244,20 @@ impl<T: Scalar> TranslationalSpringDamper<T> {
         }
     }
 
-    /// Returns true if all links are among so many, and none has two arms, here and in so many
-    /// places behind.
+    /// Returns true if the line has arms, all of them on different links of a tree of `links`
+    /// links, and if this also holds for `places` consecutive copies of the line, each shifted by
+    /// one link.
     pub(super) fn fits(&self, links: usize, places: usize) -> bool {
         let mut arms = self.arms.iter().enumerate();
-        arms.all(|(place, arm)| {
-            let end = arm.link.checked_add(places);
-            let mut before = self.arms[..place].iter();
-            end.is_some_and(|end| end <= links) && before.all(|other| other.link != arm.link)
-        })
+        !self.arms.is_empty()
+            && arms.all(|(place, arm)| {
+                let end = arm.link.checked_add(places);
+                let mut before = self.arms[..place].iter();
+                end.is_some_and(|end| end <= links) && before.all(|other| other.link != arm.link)
+            })
     }
 
-    /// The line at angles, and with rates where there are any.
+    /// Computes the line at the given angles, with rates if they are given.
     #[inline(always)]
     pub(super) fn line<V: Simd<T>>(
         &self,
@@ -263,7 +267,7 @@ impl<T: Scalar> TranslationalSpringDamper<T> {
         let zero = V::from_f64(0.0);
         let (mut offset, mut rate) = (self.offset.map(V::splat), [zero; 2]);
         for arm in &self.arms {
-            let [x, y] = arm.map(V::splat).turned(theta(arm.link));
+            let [x, y] = arm.map(V::splat).rotated(theta(arm.link));
             offset = [offset[0] + x, offset[1] + y];
             if let Some(omega) = &omega {
                 let omega = omega(arm.link);
@@ -273,7 +277,7 @@ impl<T: Scalar> TranslationalSpringDamper<T> {
         Line { offset, rate }
     }
 
-    /// A pull over the length of the line.
+    /// Returns the selected force along the line, divided by the line's length.
     #[inline(always)]
     pub(super) fn pull<V: Simd<T>>(&self, line: &Line<V>, pull: Pull) -> Option<V> {
         let mut sum: Option<V> = None;
@@ -299,15 +303,17 @@ impl<T: Scalar> TranslationalSpringDamper<T> {
         }
     }
 
-    /// Pull of what stores energy over the length of a line from the first point to the second.
+    /// Returns the force that has a potential energy, divided by the length of the line; `offset`
+    /// is the vector from the first point to the second.
     #[inline(always)]
     pub(crate) fn pull_of_energy(&self, offset: [T; 2]) -> Option<T> {
         let rate = [T::from_f64(0.0); 2];
         self.pull::<T>(&Line { offset, rate }, Pull::OfEnergy)
     }
 
-    /// Subtracts the torques of a pull, given over the length of the line. The arms are `place`
-    /// links behind those that are said.
+    /// Subtracts the torques of a force along the line from `torques`; `pull` is the force divided
+    /// by the line's length. The arms belong to links whose indices are larger by `place` than the
+    /// indices in this line.
     #[inline(always)]
     pub(super) fn subtract<V: Simd<T>>(
         &self,
@@ -320,21 +326,21 @@ impl<T: Scalar> TranslationalSpringDamper<T> {
         let [dx, dy] = line.offset;
         for arm in &self.arms {
             if let Some(torque) = torques.get_mut(arm.link + place) {
-                let [x, y] = arm.map(V::splat).turned(theta(arm.link));
+                let [x, y] = arm.map(V::splat).rotated(theta(arm.link));
                 // d · ∂d/∂θ.
                 *torque = *torque - pull * (dy * x - dx * y);
             }
         }
     }
 
-    /// The energy that the line stores.
+    /// Returns the potential energy of the line.
     #[inline(always)]
     pub(super) fn energy(&self, line: &Line<T>) -> T {
         let energies = self.potentials.iter().map(|own| own.energy(line));
         energies.fold(T::from_f64(0.0), |sum, energy| sum + energy)
     }
 
-    /// The power of the damper, where there is one.
+    /// Returns the power of the line's damper in W, if it has one.
     #[inline(always)]
     pub(super) fn power(&self, line: &Line<T>) -> Option<T> {
         let pull = self.pull(line, Pull::OfDamper)?;

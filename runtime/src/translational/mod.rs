@@ -1,15 +1,14 @@
-//! Translational spring-dampers: straight springs, forces by a power of the distance and viscous
-//! dampers between points of links.
+//! Translational spring-dampers: straight springs, power-law forces and viscous dampers between
+//! points of links.
 //!
-//! The line from the first point to the second one is d = d₀ + Σ R(θ_i) r_i: a part d₀ that no
-//! angle turns, and an arm r_i of each link on the way between the points. The energy U is a sum of
-//! terms of the length ℓ = |d|: ½ κ (ℓ − L₀)² of a spring, A/ℓⁿ of a force by a power of the
-//! distance. The power of the damper is −c ℓ̇², and the torque on link i is
-//! −(dU/dℓ + c ℓ̇) ∂ℓ/∂θ_i.
+//! The line from the first point to the second is d = d₀ + Σ R(θ_i) r_i: a constant part d₀, and an
+//! arm r_i of each link on the path between the points, rotated by the link's angle. The energy U
+//! is a sum of terms of the length ℓ = |d|: ½ κ (ℓ − L₀)² of a spring, A/ℓⁿ of a power law. The
+//! power of the damper is −c ℓ̇², and the torque on link i is −(dU/dℓ + c ℓ̇) ∂ℓ/∂θ_i.
 //!
-//! Where the points meet, ℓ = 0, a line has no direction: torques are NaN there, but for those of
-//! a spring without length at rest, whose energy is ½ κ d·d, and which has no damper. The energy
-//! A/ℓⁿ is infinite there.
+//! If the points meet, ℓ = 0, the line has no direction, and torques are NaN. An exception are
+//! springs of zero rest length without a damper, whose energy is ½ κ d·d. The energy A/ℓⁿ is
+//! infinite there.
 
 mod line;
 
@@ -22,7 +21,7 @@ use crate::scalar::{Scalar, at};
 use crate::simd::Simd;
 use line::{Line, Pull};
 
-/// Lines of the same constants side by side.
+/// Consecutive lines with the same constants.
 #[derive(Clone, Debug, PartialEq)]
 struct LineRun<T> {
     first: TranslationalSpringDamper<T>,
@@ -30,7 +29,7 @@ struct LineRun<T> {
 }
 
 impl<T: Scalar> LineRun<T> {
-    /// The line in a place.
+    /// Returns line number `place` of the run.
     fn at(&self, place: usize) -> TranslationalSpringDamper<T> {
         let mut own = self.first.clone();
         for arm in &mut own.arms {
@@ -39,7 +38,8 @@ impl<T: Scalar> LineRun<T> {
         own
     }
 
-    /// The lines at angles, and with rates where there are any.
+    /// Returns the geometry of all lines of the run at the given angles, with its rates of change
+    /// if `omega` is given.
     fn lines<'a>(
         &'a self,
         theta: &'a [T],
@@ -83,7 +83,7 @@ pub struct TranslationalSpringDampers<T> {
     runs: Vec<LineRun<T>>,
 }
 
-/// None between no links.
+/// No lines, for zero links.
 impl<T> Default for TranslationalSpringDampers<T> {
     fn default() -> Self {
         Self {
@@ -94,17 +94,18 @@ impl<T> Default for TranslationalSpringDampers<T> {
 }
 
 impl<T: Scalar> TranslationalSpringDampers<T> {
-    /// Returns those of a tree of so many links; none for arms of links that there are not, and
-    /// for two arms of one link.
+    /// Returns the lines of a tree of `links` links. Returns `None` for arms on links that the tree lacks, for two arms
+    /// on one link, and for a line without arms, whose length no angle changes.
     #[must_use]
     pub fn new(links: usize, list: Vec<TranslationalSpringDamper<T>>) -> Option<Self> {
         Self::of_runs(links, list.into_iter().map(|own| (own, 1)))
     }
 
-    /// Returns those of a tree of so many links where lines of the same constants stand side by
-    /// side, as [`SpringDampers::of_runs`](crate::spring_dampers::SpringDampers::of_runs): of each
-    /// run the first one and their number, the arms of each being those of the links behind those
-    /// of the one before. Memory is that of the runs.
+    /// Returns the lines of a tree of `links` links, in which consecutive lines share their
+    /// constants, as in [`SpringDampers::of_runs`](crate::spring_dampers::SpringDampers::of_runs).
+    /// Each run is given by its first line and the number of its lines; the links of each line have
+    /// indices larger by one than the links of the line before. Memory is proportional to the
+    /// number of runs. Returns `None` in the same cases as [`new`](Self::new).
     #[must_use]
     pub fn of_runs(
         links: usize,
@@ -117,8 +118,8 @@ impl<T: Scalar> TranslationalSpringDampers<T> {
         fit.then_some(Self { links, runs })
     }
 
-    /// Returns them on other scalars: `convert` should change the type of their constants and
-    /// not their value.
+    /// Converts the constants of the lines to another scalar type by `convert`, which should not
+    /// change their values.
     #[must_use]
     pub fn cast<S: Scalar>(&self, convert: impl Fn(T) -> S) -> TranslationalSpringDampers<S> {
         let runs = self.runs.iter().map(|run| LineRun {
@@ -131,35 +132,48 @@ impl<T: Scalar> TranslationalSpringDampers<T> {
         }
     }
 
-    /// Returns true if there is none.
+    /// Returns true if there are no lines.
     #[must_use]
     #[inline(always)]
     pub fn is_empty(&self) -> bool {
         self.runs.is_empty()
     }
 
-    /// Returns true if there is none in a tree of so many links, whose torques stay as they are.
-    /// Lines of a tree of another number of links make them NaN.
+    /// Returns true if there are no lines and the tree has this number of links, so that its
+    /// torques do not change. Lines made for another number of links make the torques NaN.
     #[inline(always)]
     pub(crate) fn is_empty_on(&self, links: usize) -> bool {
         self.runs.is_empty() && self.links == links
     }
 
-    /// Returns them one by one.
+    /// Returns the lines one by one.
     pub fn iter(&self) -> impl Iterator<Item = TranslationalSpringDamper<T>> {
         let runs = self.runs.iter();
         runs.flat_map(|run| (0..run.count).map(|place| run.at(place)))
     }
 
     /// Adds the torques (N m) on all links at their angles (rad) and angular velocities (rad/s).
-    /// NaN for slices of another length than there are links, and where points meet, but for a
-    /// spring alone without a length at rest. O(arms).
+    /// NaN if a slice does not have one number per link, and if points meet, except for springs of
+    /// zero rest length alone. O(arms).
     #[inline(always)]
     pub fn add_torques(&self, given: [&[T]; 2], torques: &mut [T]) {
         self.add_slices(given, torques, Pull::Whole);
     }
 
-    /// Adds the torques of the dampers alone, likewise.
+    /// Adds the derivatives (N m) of the potential energy by the angles to `slopes`; NaN if a slice
+    /// does not have one number per link, and if points meet, as in
+    /// [`add_torques`](Self::add_torques).
+    pub fn add_energy_slopes(&self, theta: &[T], slopes: &mut [T]) {
+        let rest = alloc::vec![T::from_f64(0.0); theta.len()];
+        let mut torques = alloc::vec![T::from_f64(0.0); slopes.len()];
+        self.add_slices([theta, &rest], &mut torques, Pull::OfEnergy);
+        for (slope, torque) in slopes.iter_mut().zip(torques) {
+            *slope = *slope - torque;
+        }
+    }
+
+    /// Adds the torques (N m) of the dampers only; NaN in the same cases as
+    /// [`add_torques`](Self::add_torques).
     pub fn add_friction(&self, given: [&[T]; 2], torques: &mut [T]) {
         self.add_slices(given, torques, Pull::OfDamper);
     }
@@ -178,8 +192,8 @@ impl<T: Scalar> TranslationalSpringDampers<T> {
         );
     }
 
-    /// Adds the torques on the links of states in the lanes of `V`, in the order in which
-    /// [`add_torques`](Self::add_torques) does.
+    /// Adds the torques on the links for several states, one in each lane of `V`. The sums have the
+    /// same order as in [`add_torques`](Self::add_torques).
     #[inline(always)]
     pub(crate) fn add_torques_in_registers<V: Simd<T>>(
         &self,
@@ -215,8 +229,8 @@ impl<T: Scalar> TranslationalSpringDampers<T> {
         }
     }
 
-    /// Energy (J) that the lines store; NaN for another number of angles than there are links.
-    /// Where points meet, A/ℓⁿ is infinite.
+    /// Returns the potential energy (J) of the lines; NaN if there is not one angle per link. If
+    /// points meet, A/ℓⁿ is infinite.
     #[must_use]
     pub fn energy(&self, theta: &[T]) -> T {
         if theta.len() != self.links {
@@ -229,8 +243,8 @@ impl<T: Scalar> TranslationalSpringDampers<T> {
         energies.fold(T::from_f64(0.0), |sum, energy| sum + energy)
     }
 
-    /// Power (W) of the dampers, never positive; NaN likewise, and where the points of a damper
-    /// meet.
+    /// Returns the power (W) of the dampers, which is never positive; NaN if a slice does not have
+    /// one number per link, or if the points of a damper meet.
     #[must_use]
     pub fn power(&self, theta: &[T], omega: &[T]) -> T {
         if [theta.len(), omega.len()] != [self.links; 2] {
@@ -241,5 +255,88 @@ impl<T: Scalar> TranslationalSpringDampers<T> {
             lines.filter_map(|line| run.first.power(&line))
         });
         powers.fold(T::from_f64(0.0), |sum, power| sum + power)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{LineArm, LinePotential, TranslationalSpringDamper, TranslationalSpringDampers};
+    use alloc::vec;
+    use alloc::vec::Vec;
+
+    fn line(arms: &[usize]) -> TranslationalSpringDamper<f64> {
+        let arms = arms.iter().map(|&link| LineArm {
+            link,
+            along: 0.3 + 0.1 * link as f64,
+            lateral: 0.05,
+        });
+        TranslationalSpringDamper {
+            arms: arms.collect(),
+            offset: [0.4, -0.1],
+            potentials: vec![LinePotential::Spring {
+                stiffness: 10.0,
+                rest: Some(0.2),
+            }],
+            friction: Some(0.5),
+        }
+    }
+
+    #[test]
+    fn lines_without_arms_or_of_missing_links_are_refused() {
+        let of_runs =
+            |arms: &[usize], count| TranslationalSpringDampers::of_runs(4, [(line(arms), count)]);
+        for (arms, count) in [
+            (&[][..], 1),
+            (&[], 0),
+            (&[], usize::MAX),
+            (&[4], 1),
+            (&[1], 4),
+            (&[3], usize::MAX),
+            (&[2, 2], 1),
+        ] {
+            assert!(of_runs(arms, count).is_none(), "{arms:?} {count}");
+        }
+        assert!(TranslationalSpringDampers::new(4, vec![line(&[0]), line(&[])]).is_none());
+        for (arms, count) in [(&[0][..], 4), (&[3], 1), (&[0, 2], 2), (&[3, 1], 1)] {
+            assert!(of_runs(arms, count).is_some(), "{arms:?} {count}");
+        }
+    }
+
+    /// Compares the derivatives of the energy with difference quotients; dampers do not change
+    /// them.
+    #[test]
+    fn slopes_are_those_of_the_energy() {
+        let runs = [(line(&[0, 2]), 2), (line(&[1]), 1)];
+        let lines = TranslationalSpringDampers::of_runs(4, runs).unwrap();
+        let theta = [0.3, -0.2, 1.1, 0.7];
+        let mut slopes = [1.0; 4];
+        lines.add_energy_slopes(&theta, &mut slopes);
+        for (link, slope) in slopes.iter().enumerate() {
+            let energy = |step: f64| {
+                let mut moved: Vec<f64> = theta.to_vec();
+                moved[link] += step;
+                lines.energy(&moved)
+            };
+            let expected = (energy(1e-5) - energy(-1e-5)) / 2e-5;
+            assert!(
+                (slope - 1.0 - expected).abs() < 1e-8,
+                "{link}: {slope} {expected}"
+            );
+        }
+    }
+
+    #[test]
+    fn runs_are_listed_with_all_of_their_links() {
+        for (arms, count) in [(&[0, 2][..], 2), (&[1], 3), (&[3, 0], 1)] {
+            let lines = TranslationalSpringDampers::of_runs(4, [(line(arms), count)]).unwrap();
+            let listed: Vec<Vec<usize>> = lines
+                .iter()
+                .map(|own| own.arms.iter().map(|arm| arm.link).collect())
+                .collect();
+            let expected: Vec<Vec<usize>> = (0..count)
+                .map(|place| arms.iter().map(|arm| arm + place).collect())
+                .collect();
+            assert_eq!(listed, expected);
+        }
     }
 }

@@ -1,43 +1,44 @@
-//! Which links are computed together.
+//! Blocks of a large tree: sets of links that are computed together so that their numbers fit into
+//! the cache.
 
 use super::generation::{Generation, Position};
 use super::strips::Strips;
 
-/// Consecutive generations of the subtrees of neighbouring links.
+/// Block of a tree: consecutive generations of the subtrees of neighbouring links.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct SubtreeBlock<'a> {
-    /// The generations, and where the last one's links have children, these.
+    /// Generations of the block, followed by the children of the last one, if it has any.
     pub(super) generations: &'a [Generation],
-    /// How many generations have children.
+    /// Number of generations with children.
     pub(super) inner: usize,
-    /// True if there is one more, of leaves.
+    /// True if the last generation of the block is followed by a generation of leaves.
     pub(super) has_leaves: bool,
-    /// The first of the neighbours, counted in its generation.
+    /// Index of the first of the neighbouring links within its generation.
     pub(super) start: usize,
     pub(super) width: usize,
-    /// Numbers in the widest register that computes it.
+    /// Number of lanes of the widest vector register that computes the block.
     pub(super) widest: usize,
-    /// True if its results are written once it has gone up.
+    /// True if the accelerations are written directly after the upward pass.
     pub(super) ends: bool,
-    /// Links with children.
+    /// Strips (links that are computed together) among the links with children.
     pub(super) strips: &'a Strips,
 }
 
 impl<'a> SubtreeBlock<'a> {
-    /// The generations whose links are computed here.
+    /// Returns the generations whose links are computed in this block.
     pub(super) fn own_generations(&self) -> &'a [Generation] {
         let count = self.inner + usize::from(self.has_leaves);
         self.generations.get(..count).unwrap_or_default()
     }
 
-    /// Number of links.
+    /// Returns the number of links.
     pub(super) fn links(&self) -> usize {
         let last = self.own_generations().last();
         last.map_or(0, |last| last.own + last.count)
     }
 
-    /// How many places links with children take, with those of children that are
-    /// not computed here.
+    /// Returns the number of entries for links with children, including those whose children are
+    /// computed elsewhere.
     pub(super) fn slots(&self) -> usize {
         let count = self.generations.len();
         let count = count.saturating_sub(usize::from(self.has_leaves));
@@ -47,20 +48,21 @@ impl<'a> SubtreeBlock<'a> {
         })
     }
 
-    /// Returns true if it takes all links of its generations.
+    /// Returns true if the block contains all links of each of its generations.
     #[inline(always)]
     pub(super) fn is_whole(&self) -> bool {
         let first = self.generations.first();
         first.is_none_or(|first| first.stride == self.width)
     }
 
-    /// How far the links of the next block are, where this one is not the whole.
+    /// Returns the distance from the links of this block to the links of the next block; `None` if
+    /// this block is the whole tree.
     #[inline(always)]
     pub(super) fn ahead(&self) -> Option<usize> {
         (!self.is_whole()).then_some(self.width)
     }
 
-    /// Where the first link of a strip stands.
+    /// Returns the position, in the arrays, of the first link of a strip.
     #[inline(always)]
     pub(super) fn place(&self, generation: &Generation, strip: usize) -> Position {
         let own = strip * generation.length;
@@ -71,8 +73,8 @@ impl<'a> SubtreeBlock<'a> {
         }
     }
 
-    /// All links in spans of neighbours: where one starts in the block's own arrays
-    /// and in the whole tree's, and how many there are. A whole tree is one.
+    /// Iterates over the links of the block as spans of neighbours: start in the block's arrays,
+    /// start in the arrays of the whole tree, and length. A whole tree is one span.
     #[inline(always)]
     pub(super) fn spans(&self) -> impl Iterator<Item = (usize, usize, usize)> {
         let whole = self.is_whole();

@@ -1,4 +1,4 @@
-//! Columns of numbers, equally long, that are read and written at one place.
+//! Views of a slice as columns of equal length, read and written at one index.
 
 #![allow(unsafe_code)]
 
@@ -8,16 +8,16 @@ use super::equations::Row;
 use crate::scalar::Scalar;
 use crate::simd::Simd;
 
-/// Numbers of a slice as `N` columns, or some rows of these. [`Rows`] of numbers have some
-/// of them too.
+/// View of a slice as a table with `N` columns, or of some rows of such a table. [`Rows`] can be
+/// viewed as columns too.
 ///
-/// As slices of their own, each column would ask whether a place lies in it, every
-/// time: many questions with one respond, and more instructions than the mechanics.
-/// Copies are views of the same numbers, as of a slice of cells.
+/// If each column were a separate slice, every access would check the index once per column, which
+/// costs more instructions than the mechanics itself. Copies of a view refer to the same numbers,
+/// as copies of a slice of cells do.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Columns<'a, T, const N: usize> {
     start: *mut T,
-    /// From one column to the next, and from one row to the next.
+    /// Distance, in numbers, from one column to the next, and from one row to the next.
     stride: usize,
     row: usize,
     rows: usize,
@@ -25,8 +25,8 @@ pub(super) struct Columns<'a, T, const N: usize> {
 }
 
 impl<'a, T: Copy, const N: usize> Columns<'a, T, N> {
-    /// The front of a slice as columns of `length` numbers, or of fewer where it is
-    /// too short.
+    /// Creates a view of the front of a slice as columns of `length` numbers, or of fewer if the
+    /// slice is too short.
     #[inline(always)]
     pub(super) fn new(slice: &'a mut [T], length: usize) -> Self {
         let length = length.min(slice.len() / N.max(1));
@@ -39,8 +39,8 @@ impl<'a, T: Copy, const N: usize> Columns<'a, T, N> {
         }
     }
 
-    /// The rows from `at` on, as many as said: where one number is the length of
-    /// several windows, one question is enough for all.
+    /// Returns a view of the `rows` rows from index `at` on. If several windows have the same
+    /// length, the compiler needs only one bounds check.
     #[inline(always)]
     pub(super) fn window(self, at: usize, rows: usize) -> Option<Self> {
         if rows > self.rows || at > self.rows - rows {
@@ -53,19 +53,19 @@ impl<'a, T: Copy, const N: usize> Columns<'a, T, N> {
         })
     }
 
-    /// Where the first one starts.
+    /// Returns a pointer to the start of the first column.
     pub(super) fn start(self) -> *mut T {
         self.start
     }
 
-    /// From one to the next.
+    /// Returns the distance, in numbers, from one column to the next.
     pub(super) fn stride(self) -> usize {
         self.stride
     }
 
     #[inline(always)]
     fn has<V: Simd<T>>(self, at: usize) -> bool {
-        // Of rows, the numbers of several links do not stand side by side.
+        // In views of rows, the numbers of several links are not contiguous.
         let side_by_side = V::LANES == 1 || self.row == 1;
         side_by_side && V::LANES <= self.rows && at <= self.rows - V::LANES
     }
@@ -78,18 +78,18 @@ impl<'a, T: Copy, const N: usize> Columns<'a, T, N> {
         }
     }
 
-    /// Returns the vectors at `at`; none where they would cross the end.
+    /// Reads one vector from each column at row `at`; `None` if the vectors would cross the end.
     #[inline(always)]
     pub(super) fn load<V: Simd<T>>(self, at: usize) -> Option<[V; N]> {
         if !self.has::<V>(at) {
             return None;
         }
-        // SAFETY: as in `store`; what is read there is copied at once.
+        // SAFETY: as in `store`; the values are copied at once.
         Some(unsafe { self.cells().read(at) })
     }
 
-    /// Writes the vectors at `at` of the first `M` columns; none where they would
-    /// cross the end.
+    /// Writes one vector to each of the first `M` columns at row `at`. Returns `None` if the
+    /// vectors would cross the end.
     #[inline(always)]
     pub(super) fn store<V: Simd<T>, const M: usize>(
         self,
@@ -100,17 +100,17 @@ impl<'a, T: Copy, const N: usize> Columns<'a, T, N> {
         if !self.has::<V>(at) {
             return None;
         }
-        // SAFETY: in the slice there are `N` columns, `stride` apart, of which each has
-        // `rows` numbers from `start` on, `row` apart; by `new` and `Rows::columns`, and kept
-        // by `window`. `has` has seen that `LANES` from `at` on are among them. The slice is
-        // borrowed mutably for as long as the views live, which are all in one thread, and no
-        // other reference is there now.
+        // SAFETY: the slice holds `N` columns, `stride` apart, each with `rows` numbers from
+        // `start` on, `row` apart. `new` and `Rows::columns` establish this, and `window` keeps it.
+        // `has` has checked that `LANES` numbers from `at` on are among them. The slice is mutably
+        // borrowed while the views live, all views are in one thread, and no other reference exists
+        // now.
         unsafe { self.cells().write(at, vectors) };
         Some(())
     }
 }
 
-/// Numbers of a slice in rows, one behind the other.
+/// View of a slice as rows of equal width, one after the other.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Rows<'a, T> {
     start: *mut T,
@@ -120,7 +120,7 @@ pub(super) struct Rows<'a, T> {
 }
 
 impl<'a, T> Rows<'a, T> {
-    /// The front of a slice in rows of `width` numbers.
+    /// Creates a view of the front of a slice as rows of `width` numbers.
     #[inline(always)]
     pub(super) fn new(slice: &'a mut [T], width: usize) -> Self {
         Self {
@@ -131,7 +131,7 @@ impl<'a, T> Rows<'a, T> {
         }
     }
 
-    /// `N` columns, from number `first` of each row on; none where a row has not so many.
+    /// Returns a view of `N` columns, from column `first` on; `None` if a row has fewer columns.
     #[inline(always)]
     pub(super) fn columns<const N: usize>(self, first: usize) -> Columns<'a, T, N> {
         let fit = first + N <= self.width;
@@ -145,8 +145,9 @@ impl<'a, T> Rows<'a, T> {
     }
 }
 
-/// Where the numbers of links stand: number `i` of link `at` is at `at · row +
-/// i · stride`. In columns, links are side by side; in rows, the numbers of a link are.
+/// Memory layout of the numbers of links: number `i` of link `at` has the offset `at · row + i ·
+/// stride`. If numbers are stored in columns, the links are contiguous; if in rows, the numbers of
+/// one link are.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Cells<T> {
     start: *mut T,
@@ -155,7 +156,7 @@ pub(super) struct Cells<T> {
 }
 
 impl<T: Copy> Cells<T> {
-    /// In columns, so far apart.
+    /// Returns the layout for columns whose starts are `stride` numbers apart.
     #[inline(always)]
     pub(super) fn columns(start: *mut T, stride: usize) -> Self {
         Self {
@@ -165,7 +166,7 @@ impl<T: Copy> Cells<T> {
         }
     }
 
-    /// In rows of so many numbers.
+    /// Returns the layout for rows of `row` numbers.
     #[inline(always)]
     pub(super) fn rows(start: *mut T, row: usize) -> Self {
         Self {
@@ -175,7 +176,7 @@ impl<T: Copy> Cells<T> {
         }
     }
 
-    /// The links from `at` on.
+    /// Returns the layout that starts with link `at`.
     #[inline(always)]
     pub(super) fn from(self, at: usize) -> Self {
         Self {
@@ -184,47 +185,49 @@ impl<T: Copy> Cells<T> {
         }
     }
 
-    /// Where number `i` of the link `at` stands.
+    /// Returns the address of number `i` of link `at`.
     #[inline(always)]
     pub(super) fn place(self, at: usize, i: usize) -> *mut T {
         self.start.wrapping_add(at * self.row + i * self.stride)
     }
 
-    /// Reads numbers of the link `at`, or of as many links as `V` has lanes.
+    /// Reads the numbers of link `at`; if `V` has several lanes, of the links from `at` on, one in
+    /// each lane.
     ///
     /// # Safety
-    /// The numbers may be read there.
-    // A plain loop: iterators are many lines to compile, with each model.
+    /// The numbers must be valid for reads.
+    // A plain loop: iterators take long to compile, with each model.
     #[inline(always)]
     pub(super) unsafe fn read<V: Simd<T>, A: Row<V>>(self, at: usize) -> A {
         let start = self.from(at).start;
         let mut vectors = A::filled(V::from_f64(0.0));
         let mut i = 0;
         while i < A::LENGTH {
-            // SAFETY: the caller's.
+            // SAFETY: the caller guarantees valid reads.
             vectors.as_mut()[i] = unsafe { V::read(start.add(i * self.stride)) };
             i += 1;
         }
         vectors
     }
 
-    /// Writes numbers of the link `at`, or of as many links as `V` has lanes.
+    /// Writes the numbers of link `at`; if `V` has several lanes, of the links from `at` on, one in
+    /// each lane.
     ///
     /// # Safety
-    /// The numbers may be written there.
+    /// The numbers must be valid for writes.
     #[inline(always)]
     pub(super) unsafe fn write<V: Simd<T>, A: Row<V>>(self, at: usize, vectors: &A) {
         let start = self.from(at).start;
         let mut i = 0;
         while i < A::LENGTH {
-            // SAFETY: the caller's.
+            // SAFETY: the caller guarantees valid writes.
             unsafe { vectors.as_ref()[i].write(start.add(i * self.stride)) };
             i += 1;
         }
     }
 }
 
-/// The numbers from a place where there are enough; NaN elsewhere.
+/// Reads the vector that starts at index `place`; NaN if there are too few numbers.
 #[inline(always)]
 pub(super) fn load<T: Scalar, V: Simd<T>>(numbers: &[T], place: usize) -> V {
     match V::load(numbers.get(place..).unwrap_or_default()) {
@@ -233,7 +236,7 @@ pub(super) fn load<T: Scalar, V: Simd<T>>(numbers: &[T], place: usize) -> V {
     }
 }
 
-/// The numbers from a place on, and zeros behind the end.
+/// Reads the vector that starts at index `place`; missing numbers are zero.
 #[inline(always)]
 pub(super) fn load_front<T: Scalar, V: Simd<T>>(numbers: &[T], place: usize) -> V {
     V::load_front(numbers.get(place..).unwrap_or_default())

@@ -1,19 +1,21 @@
-//! Links of trees by generations: how many there are, and which is where.
+//! Trees described by generations: number of links, and the conversion between the index of a link
+//! and its path.
 
 use alloc::vec::Vec;
 
 use super::{LinkEquations, LinkName, Tree};
 
 impl<E: LinkEquations, T> Tree<E, T> {
-    /// Copies whose products are numbers.
+    /// Number of copies of each generation under each link of the generation before; it must be
+    /// known at compile time.
     pub(super) const COPIES: &'static [usize] = {
         links(E::COPIES);
         E::COPIES
     };
 
-    /// Index of the link that one comes to from the root by these copies, each
-    /// counted from 0; the empty path is the root's. None where there is no such
-    /// link, or the tree is not by generations.
+    /// Returns the index of the link at the end of a path from the root. The path contains one
+    /// number per generation: which copy to take, counted from 0. The empty path leads to the root.
+    /// `None` if there is no such link, or if the tree is not described by generations.
     #[must_use]
     pub fn link(path: &[usize]) -> Option<usize> {
         let (mut start, mut count, mut index) = (0, *Self::COPIES.first()?, 0);
@@ -30,10 +32,10 @@ impl<E: LinkEquations, T> Tree<E, T> {
         Some(start + index)
     }
 
-    /// The path from the root to a link: the inverse of [`link`](Self::link).
+    /// Returns the path from the root to a link; the inverse of [`link`](Self::link).
     #[must_use]
     pub fn path(index: usize) -> Option<Vec<usize>> {
-        let (generation, mut rest) = place(Self::COPIES, index)?;
+        let (generation, mut rest) = generation_and_index(Self::COPIES, index)?;
         let copies = Self::COPIES.get(1..=generation).unwrap_or_default();
         let mut path = Vec::with_capacity(generation);
         for &copies in copies {
@@ -43,10 +45,10 @@ impl<E: LinkEquations, T> Tree<E, T> {
         Some(path)
     }
 
-    /// The name of a link of a tree by generations.
+    /// Returns the name of a link, for a tree that is described by generations.
     #[must_use]
     pub fn link_name(index: usize) -> Option<LinkName<'static>> {
-        let (generation, index) = place(Self::COPIES, index)?;
+        let (generation, index) = generation_and_index(Self::COPIES, index)?;
         Some(LinkName {
             stem: E::NAMES.get(generation)?,
             copies: Self::COPIES.get(1..=generation)?,
@@ -55,10 +57,10 @@ impl<E: LinkEquations, T> Tree<E, T> {
     }
 }
 
-/// Returns the number of links of a tree by generations.
+/// Returns the number of links of a tree with these numbers of copies in its generations.
 ///
 /// # Panics
-/// Where they are more than a number holds: constants ask for it, and such a tree is not
+/// If the number of links overflows. It is called in constants, so that such a tree is not
 /// compiled.
 pub(super) const fn links(copies: &[usize]) -> usize {
     const TOO_MANY: &str = "the generations of a tree have more links than a number holds";
@@ -71,8 +73,8 @@ pub(super) const fn links(copies: &[usize]) -> usize {
     links
 }
 
-/// Returns the generation of a link, and its number there.
-pub(super) fn place(copies: &[usize], index: usize) -> Option<(usize, usize)> {
+/// Returns the generation of a link, and its index within the generation.
+pub(super) fn generation_and_index(copies: &[usize], index: usize) -> Option<(usize, usize)> {
     let (mut count, mut rest) = (1, index);
     for (generation, copies) in copies.iter().enumerate() {
         count *= copies;

@@ -1,8 +1,8 @@
-//! Accelerations with springs and friction between links that are not parent and child, and to the
-//! ground.
+//! Accelerations of trees with springs and friction between links that are not parent and child,
+//! and to the ground.
 //!
-//! Angles and rates give their torques before the recursion, which takes them and those from
-//! outside alike.
+//! These torques depend only on angles and velocities. They are computed before the recursion for
+//! the accelerations, which treats them as external torques.
 
 use super::evaluate::{InBlocks, InOnePiece};
 use super::memory::take;
@@ -18,9 +18,9 @@ use crate::system::Workspace;
 use crate::translational::TranslationalSpringDampers;
 
 impl<E: LinkEquations, T: Scalar> Tree<E, T> {
-    /// Returns the tree with springs and friction between its links, whose equations say that
-    /// there are some ([`LinkEquations::COUPLED`]). All accelerations are NaN with those of a
-    /// tree of another number of links.
+    /// Adds springs and friction between links that are not parent and child. The tree's equations
+    /// must allow them ([`LinkEquations::COUPLED`]). If they are made for another number of links,
+    /// all accelerations are NaN.
     #[must_use]
     pub fn with_spring_dampers(mut self, spring_dampers: SpringDampers<T>) -> Self {
         const { assert!(E::COUPLED && E::FORCED) };
@@ -28,14 +28,14 @@ impl<E: LinkEquations, T: Scalar> Tree<E, T> {
         self
     }
 
-    /// Returns what acts between links that are not parent and child.
+    /// Returns the springs and friction between links that are not parent and child.
     #[must_use]
     pub fn spring_dampers(&self) -> &SpringDampers<T> {
         &self.spring_dampers
     }
 
-    /// Returns the tree with springs and dampers along lines between points, likewise. Budgets by
-    /// scale know none of them.
+    /// Adds springs and dampers that act along lines between points. The tree's equations must
+    /// allow them ([`LinkEquations::COUPLED`]). Energy budgets by scale do not include them.
     #[must_use]
     pub fn with_translational_spring_dampers(
         mut self,
@@ -46,21 +46,22 @@ impl<E: LinkEquations, T: Scalar> Tree<E, T> {
         self
     }
 
-    /// Returns what acts along lines between points of links, and to the ground.
+    /// Returns the springs and dampers along lines between points of links, and to the ground.
     #[must_use]
     pub fn translational_spring_dampers(&self) -> &TranslationalSpringDampers<T> {
         &self.translational
     }
 
-    /// Returns true if something acts along lines; also if that is of another number of links, which
-    /// makes the accelerations NaN.
+    /// Returns true if springs or dampers act along lines. Also returns true if they are made for
+    /// another number of links, which makes the accelerations NaN.
     #[inline(always)]
     fn has_lines(&self) -> bool {
         !self.translational.is_empty_on(self.skeleton.plan.links())
     }
 
-    /// Writes all torques on the links: those from `outside`, where there are any, and those
-    /// between links, with lines in the arithmetic of `T`.
+    /// Writes the sum of all torques on the links: the `outside` torques (if any), and the torques
+    /// of springs and friction between links. Forces along lines are computed in the arithmetic of
+    /// `T`.
     #[inline(always)]
     pub(super) fn write_torques(&self, outside: Option<&[T]>, given: [&[T]; 2], torques: &mut [T]) {
         self.spring_dampers.write_torques(outside, given, torques);
@@ -69,8 +70,8 @@ impl<E: LinkEquations, T: Scalar> Tree<E, T> {
         }
     }
 
-    /// Writes them with lines in fused arithmetic where the machine has it, as registers of states
-    /// have them.
+    /// Writes the sum of all torques on the links. Forces along lines are computed with fused
+    /// multiply–add if the machine has it, as they are for many states in registers.
     pub(super) fn write_torques_fused(
         &self,
         outside: Option<&[T]>,
@@ -87,7 +88,8 @@ impl<E: LinkEquations, T: Scalar> Tree<E, T> {
         }
     }
 
-    /// Writes the accelerations under all that acts.
+    /// Writes the accelerations under all torques, including those of springs and friction between
+    /// links.
     pub(super) fn accelerate(
         &self,
         workspace: &mut Workspace<T>,
@@ -110,14 +112,14 @@ impl<E: LinkEquations, T: Scalar> Tree<E, T> {
         self.accelerate_as_given(workspace, drive, given, None, alpha);
     }
 
-    /// Writes the accelerations where what acts between links is among the torques from
-    /// outside.
+    /// Writes the accelerations if the external torques already include the torques of springs and
+    /// friction between links.
     pub(super) fn accelerate_as_given(
         &self,
         workspace: &mut Workspace<T>,
         drive: Option<RootDrive<T>>,
         given: LinkStates<'_, T>,
-        held: Option<&[T]>,
+        prescribed: Option<&[T]>,
         alpha: &mut [T],
     ) {
         let accelerate = match Self::IN_BLOCKS {
@@ -129,19 +131,19 @@ impl<E: LinkEquations, T: Scalar> Tree<E, T> {
             sweep::sweep::<E, T>,
             drive,
             given,
-            held,
+            prescribed,
             alpha,
             workspace,
         );
     }
 
-    /// Hands over the accelerations of states in the lanes of `V` under all that acts; of none where
-    /// the room is too small.
+    /// Writes the accelerations of several states, one in each lane of `V`, under all torques.
+    /// Writes nothing if the workspace is too small.
     #[inline(always)]
     pub(super) fn accelerate_states<V: Simd<T>>(
         &self,
         drive: Option<RootDrive<V>>,
-        mut room: &mut [V],
+        mut buffer: &mut [V],
         theta: impl Fn(usize) -> V,
         omega: impl Fn(usize) -> V,
         outside: impl Fn(usize) -> [V; 2],
@@ -149,7 +151,7 @@ impl<E: LinkEquations, T: Scalar> Tree<E, T> {
     ) {
         let mut torques: &[V] = &[];
         if E::COUPLED {
-            let all = take(&mut room, self.skeleton.plan.links());
+            let all = take(&mut buffer, self.skeleton.plan.links());
             for (link, torque) in all.iter_mut().enumerate() {
                 [*torque, _] = outside(link);
             }
@@ -163,11 +165,11 @@ impl<E: LinkEquations, T: Scalar> Tree<E, T> {
         }
         let acting = ActingOnStates { drive, torques };
         let tree = &self.skeleton;
-        states::accelerations::<E, T, V>(tree, acting, room, theta, omega, outside, alpha);
+        states::accelerations::<E, T, V>(tree, acting, buffer, theta, omega, outside, alpha);
     }
 }
 
-/// The torques by what acts along lines, added in numbers of one lane.
+/// Operation that adds the torques of the forces along lines, computed in numbers of one lane.
 struct LineTorques<'a, T> {
     lines: &'a TranslationalSpringDampers<T>,
     given: [&'a [T]; 2],
@@ -187,7 +189,7 @@ impl<T: Scalar> Kernel<T> for LineTorques<'_, T> {
                 |link| at(omega, link),
                 torques,
             ),
-            // Numbers of more than one lane, which none here is.
+            // Only numbers of several lanes reach this; none is used here.
             _ => self.lines.add_torques(self.given, self.torques),
         }
     }

@@ -1,32 +1,34 @@
-//! The equations of one link, as the attribute writes them.
+//! Equations of one link, as the attribute emits them.
 
 use crate::scalar::Scalar;
 pub use crate::simd::Row;
 
-/// The motion of a link, or of as many links (or states) as `V` has lanes.
+/// Motion of one link, or of several links or states, one in each lane of `V`.
 #[derive(Clone, Copy, Debug)]
 pub struct LinkMotion<V> {
     /// Sine of the angle.
     pub sine: V,
     /// Cosine of the angle.
     pub cosine: V,
-    /// Angular velocity, rad/s.
+    /// Angular velocity, in rad/s.
     pub omega: V,
-    /// Angle less the parent's, rad; the root's own for the root.
+    /// Angle relative to the parent, in rad; the absolute angle for the root.
     pub joint_angle: V,
-    /// Angular velocity less the parent's, rad/s; the root's own for the root.
+    /// Angular velocity relative to the parent, in rad/s; the absolute one for the root.
     pub joint_rate: V,
-    /// Generalized torque from outside, N m; of a held link its angular acceleration, rad/s².
+    /// External torque (a generalized force), in N m; for a prescribed link, its angular
+    /// acceleration in rad/s².
     pub outside_torque: V,
-    /// 1 for a held link, whose acceleration is given, and 0 for others.
-    pub held: V,
+    /// 1 for a prescribed link, whose acceleration is given; 0 for all others.
+    pub prescribed: V,
 }
 
 impl<V: Copy> LinkMotion<V> {
-    /// A link that turns; what acts in its joint and from outside is left open.
+    /// Creates the motion of a link from sine, cosine and angular velocity; joint motion and
+    /// external torque are unspecified.
     #[inline(always)]
     pub(super) fn turning(sine: V, cosine: V, omega: V) -> Self {
-        // No number of their own, which would take a register.
+        // The unspecified fields repeat other values, so that they take no register.
         Self {
             sine,
             cosine,
@@ -34,100 +36,101 @@ impl<V: Copy> LinkMotion<V> {
             joint_angle: omega,
             joint_rate: omega,
             outside_torque: omega,
-            held: omega,
+            prescribed: omega,
         }
     }
 }
 
-/// The equations of one link of a tree, for as many links (or states) side by side
-/// as a value has lanes: the articulated-body recursion in the plane. A tree takes
-/// them from the leaves to the root and back.
+/// Equations of one link of a tree: the articulated-body recursion in the plane. A value `V` holds
+/// a number of one link, or numbers of several links or states, one in each lane. A tree evaluates
+/// them in an upward and a downward pass.
 ///
-/// All rows are arrays, as in `type Response<V: Scalar> = [V; 5];`. Lengths and
-/// masses are in units that all links share, so that responses of the children of
-/// one pivot are simply added. Every function is `#[inline(always)]`.
+/// All rows are arrays, for example `type Response<V: Scalar> = [V; 5];`. All links use the same
+/// units of length and mass, so that responses of the children of one pivot can be added. Every
+/// function is `#[inline(always)]`.
 ///
 /// # Source
-/// R. Featherstone, Rigid Body Dynamics Algorithms, 2008, ch. 7; in the plane
-/// `docs/physics.md`, section 10.
+/// R. Featherstone, Rigid Body Dynamics Algorithms, 2008, ch. 7; in the plane `docs/physics.md`,
+/// section 10.
 pub trait LinkEquations: Copy + Send + Sync + 'static {
     /// Constants of a link.
     type Constants<V: Scalar>: Row<V>;
 
-    /// Articulated inertia (three numbers) and bias force (two) of a subtree; where
-    /// joints have torques, the torque of the joint on the parent.
+    /// Response of a subtree to the acceleration of its pivot: articulated inertia (three numbers)
+    /// and bias force (two), and, if joints have torques, the torque of the joint on the parent.
     type Response<V: Scalar>: Row<V>;
 
-    /// Responses of all children, attached to their parent and summed; the same as
-    /// [`Response`](Self::Response) where all children share one pivot.
+    /// Sum of the responses of all children, transferred to their parent's pivot; identical to
+    /// [`Response`](Self::Response) if all children share one pivot.
     type Sums<V: Scalar>: Row<V>;
 
-    /// Numbers kept of a link with children for the way down.
+    /// Numbers of a link with children that the upward pass keeps for the downward pass.
     type Elimination<V: Scalar>: Row<V>;
 
-    /// Numbers that a link with children hands them on the way down. The first two
-    /// are the acceleration of their pivot where all share one.
+    /// Numbers that a link passes to its children in the downward pass. The first two are the
+    /// acceleration of their pivot if all children share one.
     type Carried<V: Scalar>: Row<V>;
 
-    /// Copies of each generation under each link of the one before, 1 for the root:
-    /// constants are a row a generation then. Empty for a tree whose shape is given
-    /// link by link, with a row a link. A tree of more links than memory can hold is not
-    /// compiled.
+    /// Number of copies of each generation under each link of the one before, 1 for the root;
+    /// constants then have one row per generation. Empty for a tree given link by link, whose
+    /// constants have one row per link. A tree with more links than memory can hold is rejected by
+    /// the compiler.
     const COPIES: &'static [usize];
 
-    /// Names of the generations; empty where [`COPIES`](Self::COPIES) is.
+    /// Names of the generations; empty if the tree is given link by link.
     const NAMES: &'static [&'static str];
 
-    /// The functions read [`joint_angle`](LinkMotion::joint_angle) or
+    /// True if the functions use [`joint_angle`](LinkMotion::joint_angle) or
     /// [`joint_rate`](LinkMotion::joint_rate).
     const JOINTS: bool;
 
-    /// The last of the constants is a torque on the root, which every evaluation
-    /// states anew; it is zero for the other links.
+    /// True if the last constant of a link is a torque. Every evaluation sets it for the root; it
+    /// is zero for other links.
     const TORQUE: bool;
 
-    /// The functions read [`outside_torque`](LinkMotion::outside_torque).
+    /// True if the functions use external torques ([`outside_torque`](LinkMotion::outside_torque)).
     const FORCED: bool = false;
 
-    /// Springs and friction act between links that are not parent and child
+    /// True if springs and friction act between links that are not parent and child
     /// ([`Tree::with_spring_dampers`](super::Tree::with_spring_dampers)), or along lines
     /// ([`Tree::with_translational_spring_dampers`](super::Tree::with_translational_spring_dampers)).
-    /// The functions read torques from outside then.
+    /// The functions then use external torques.
     const COUPLED: bool = false;
 
-    /// The functions read [`held`](LinkMotion::held): links may have given accelerations,
-    /// and what is told of these in place of accelerations are the torques that they take.
-    const HELD: bool = false;
+    /// True if links may be prescribed, that is, have given accelerations
+    /// ([`prescribed`](LinkMotion::prescribed)). For such a link the functions return the torque that its
+    /// motion needs instead of the acceleration.
+    const PRESCRIBED: bool = false;
 
-    /// Returns the response of a link without children.
+    /// Returns the response of a link without children to the acceleration of its pivot.
     fn leaf<V: Scalar>(constants: &Self::Constants<V>, link: LinkMotion<V>) -> Self::Response<V>;
 
-    /// Returns the response of a child about the pivot of its parent, whose motion
-    /// is given: the response as it is where all children share one pivot.
+    /// Transfers the response of a child to the pivot of its parent, whose motion is given. If all
+    /// children share one pivot, returns the response unchanged.
     fn attach<V: Scalar>(
         child: &Self::Constants<V>,
         parent: LinkMotion<V>,
         response: Self::Response<V>,
     ) -> Self::Sums<V>;
 
-    /// Returns the response of a link with children, and what it needs on the way
-    /// down.
+    /// Computes the response of a link with children from the sum `below` of their responses, and
+    /// the numbers that the link needs in the downward pass.
     fn inner<V: Scalar>(
         constants: &Self::Constants<V>,
         link: LinkMotion<V>,
         below: Self::Sums<V>,
     ) -> (Self::Response<V>, Self::Elimination<V>);
 
-    /// Returns the acceleration of a child's pivot: what the parent hands down as it
-    /// is where all children share one. (Joint angle and rate of a parent are left
-    /// open here and for [`attach`](Self::attach).)
+    /// Returns the acceleration of a child's pivot. If all children share one pivot, this is part
+    /// of the numbers that the parent passes on. Joint angle and rate of the parent are not used
+    /// here nor in [`attach`](Self::attach).
     fn pivot<V: Scalar>(
         child: &Self::Constants<V>,
         parent: LinkMotion<V>,
         carried: Self::Carried<V>,
     ) -> [V; 2];
 
-    /// Returns the angular acceleration of a link with children, and what it hands
+    /// Returns the angular acceleration of a link with children, and the numbers that it passes to
     /// them.
     fn accelerate<V: Scalar>(
         constants: &Self::Constants<V>,
@@ -136,7 +139,8 @@ pub trait LinkEquations: Copy + Send + Sync + 'static {
         pivot: [V; 2],
     ) -> (V, Self::Carried<V>);
 
-    /// Returns the angular acceleration of a link without children.
+    /// Returns the angular acceleration of a link without children, given the acceleration of its
+    /// pivot.
     fn accelerate_leaf<V: Scalar>(
         constants: &Self::Constants<V>,
         link: LinkMotion<V>,

@@ -1,57 +1,58 @@
-//! Accelerations of one state: the tree in one piece, or block by block where it
-//! is large.
+//! Accelerations for a single state: the whole tree at once, or block by block if the tree is
+//! large.
 
 use core::ops::Range;
 
 use super::block::SubtreeBlock;
 use super::interface::Interface;
 use super::layout;
-use super::memory::{LINE, Room, line, odd_lines, take};
+use super::memory::{BlockMemory, LINE, line, odd_lines, take};
 use super::motion::{Motions, joint_motions};
 use super::partition::Partition;
 use super::root::RootDrive;
 use super::shared::Shared;
 use super::skeleton::Skeleton;
 use super::small::LinkStates;
-use super::sweep::{Sweep, View, Way};
+use super::sweep::{PassSelection, Sweep, View};
 use crate::scalar::kind::compiled_once;
 use crate::scalar::{Scalar, at};
 use crate::simd::WIDEST;
 use crate::simd::dispatch::in_widest;
 use crate::system::Workspace;
 
-/// The equations of one tree, taken through a block: compiled with every model.
-pub(super) type SweepFn<T> = fn(&View<'_, T, T>, Way<'_, T>);
+/// Function that evaluates the equations of one tree for one block; it is compiled with every
+/// model.
+pub(super) type SweepFn<T> = fn(&View<'_, T, T>, PassSelection<'_, T>);
 
-/// One evaluation.
+/// Input of one evaluation.
 struct Evaluation<'a, T: 'static> {
     tree: &'a Skeleton<T>,
     sweep: SweepFn<T>,
     drive: Option<RootDrive<T>>,
     given: LinkStates<'a, T>,
-    /// 1 for each held link, 0 for others; none where none is.
-    held: Option<&'a [T]>,
+    /// For each link, 1 if it is prescribed and 0 otherwise; `None` if no link is prescribed.
+    prescribed: Option<&'a [T]>,
 }
 
 impl<T: Scalar> Evaluation<'_, T> {
     fn block<'a>(
         &'a self,
         block: SubtreeBlock<'a>,
-        room: &Room,
+        block_memory: &BlockMemory,
         [lasting, passing]: [&'a mut [T]; 2],
     ) -> Sweep<'a, T, T> {
         Sweep {
             block,
             constants: &self.tree.constants,
             omega: self.given.omega,
-            storage: room.storage(self.tree.sizes, lasting, passing, false),
+            storage: block_memory.storage(self.tree.sizes, lasting, passing, false),
             root: None,
             torque: None,
         }
     }
 
-    /// Forms what is known before the recursion, with what is of the generation
-    /// `below`.
+    /// Computes sines, cosines and joint motions of a block before its passes, and loads the
+    /// responses of the generation `below`, if there is one.
     fn prepare(
         &self,
         sweep: &mut Sweep<'_, T, T>,
@@ -67,7 +68,7 @@ impl<T: Scalar> Evaluation<'_, T> {
             theta: self.given.theta,
             omega: self.given.omega,
             torques: self.given.torques,
-            held: self.held,
+            prescribed: self.prescribed,
             alpha: ends.then_some(alpha),
         });
         if self.tree.sizes.joints {
@@ -80,8 +81,8 @@ impl<T: Scalar> Evaluation<'_, T> {
         }
     }
 
-    /// From the leaves, or what is known of the generation `below`, to the first
-    /// generation.
+    /// Runs the upward pass from the leaves, or from the known responses of the generation `below`,
+    /// to the first generation of the block.
     fn up(
         &self,
         sweep: &mut Sweep<'_, T, T>,
@@ -90,7 +91,7 @@ impl<T: Scalar> Evaluation<'_, T> {
     ) {
         self.prepare(sweep, below, alpha);
         if let Some(view) = sweep.view() {
-            let way = Way {
+            let way = PassSelection {
                 up: true,
                 down: None,
             };
@@ -98,7 +99,8 @@ impl<T: Scalar> Evaluation<'_, T> {
         }
     }
 
-    /// From the first generation to the leaves, or the generation `below`.
+    /// Runs the downward pass from the first generation of the block to the leaves, or to the
+    /// generation `below`.
     fn down(
         &self,
         sweep: &mut Sweep<'_, T, T>,
@@ -108,15 +110,15 @@ impl<T: Scalar> Evaluation<'_, T> {
         let (start, reach) = (sweep.block.start, sweep.block.strips.reach());
         let down = alpha.window(start, reach.whole);
         if let (Some(view), true) = (sweep.view(), down.is_some()) {
-            (self.sweep)(&view, Way { up: false, down });
+            (self.sweep)(&view, PassSelection { up: false, down });
         }
         if let Some(below) = below {
             below.store_pivots(sweep);
         }
     }
 
-    /// Up and down again: the whole tree, or what is above all partitions, of which the
-    /// last one starts with the generation `below`.
+    /// Runs both passes through the whole tree or, if it is partitioned, through the part above all
+    /// partitions, which ends above the generation `below`.
     fn top(&self, below: Option<Interface<'_, T>>, buffer: &mut [T], alpha: Shared<'_, T>) {
         let Skeleton { plan, layout, .. } = self.tree;
         let mut buffer = buffer;
@@ -124,19 +126,19 @@ impl<T: Scalar> Evaluation<'_, T> {
         let mut sweep = self.block(plan.top(), &layout.top, [lasting, buffer]);
         let drive = self.drive;
         sweep.torque = drive.map(|drive| drive.torque);
-        sweep.root = Some(RootDrive::above(self.tree.root, drive));
+        sweep.root = Some(RootDrive::apparent_gravity(self.tree.root, drive));
         self.prepare(&mut sweep, below, alpha);
         let down = alpha.window(0, sweep.block.strips.reach().whole);
         if let (Some(view), true) = (sweep.view(), down.is_some()) {
-            (self.sweep)(&view, Way { up: true, down });
+            (self.sweep)(&view, PassSelection { up: true, down });
         }
         if let Some(below) = below {
             below.store_pivots(&mut sweep);
         }
     }
 
-    /// Up and down again: the whole tree, or what is above the first `partitions`, of
-    /// which the last one starts with the generation `below`.
+    /// Runs both passes through the whole tree, or through the part above the first `partitions`
+    /// partitions, which ends above the generation `below`.
     fn solve(
         &self,
         partitions: usize,
@@ -151,22 +153,22 @@ impl<T: Scalar> Evaluation<'_, T> {
             ..
         } = self.tree;
         let mut buffer = buffer;
-        let (Some(partition), Some(room)) = (
+        let (Some(partition), Some(block_memory)) = (
             plan.partitions.get(partitions),
             layout.blocks.get(partitions),
         ) else {
             return self.top(below, buffer, alpha);
         };
         let threads = self.tree.threads();
-        let interface = Interface::<T>::room(partition.count, *sizes);
+        let interface = Interface::<T>::workspace_len(partition.count, *sizes);
         let level = Level {
             partition,
-            room,
+            block_memory,
             start: Interface::new(take(&mut buffer, interface), partition.count),
             below,
             alpha,
         };
-        let workers = layout::workers::<T>(partition, room, threads);
+        let workers = layout::workers::<T>(partition, block_memory, threads);
         let workers = take(&mut buffer, workers);
         super::threads::all(level.jobs(threads, &mut *workers), |blocks| {
             self.blocks_up(blocks);
@@ -177,7 +179,8 @@ impl<T: Scalar> Evaluation<'_, T> {
         });
     }
 
-    /// Up and down again, of links of any shape: their numbers stand in the order of the strips.
+    /// Runs both passes through a tree of any shape. All arrays are in the order of the strips
+    /// (links that are computed together).
     fn in_order_of_strips(&self, mut buffer: &mut [T], alpha: &mut [T]) {
         let Skeleton { plan, .. } = self.tree;
         let (order, links) = (&plan.order, plan.links());
@@ -195,7 +198,7 @@ impl<T: Scalar> Evaluation<'_, T> {
                 (*own_theta, *own_omega) = (angle, rate);
             }
         }
-        let [own_torques, own_held] = [torques, self.held].map(|given| {
+        let [own_torques, own_prescribed] = [torques, self.prescribed].map(|given| {
             given.map(|given| {
                 let own = column();
                 for (own, &link) in own.iter_mut().zip(order) {
@@ -212,7 +215,7 @@ impl<T: Scalar> Evaluation<'_, T> {
                 omega: own_omega,
                 torques: own_torques,
             },
-            held: own_held,
+            prescribed: own_prescribed,
             ..*self
         };
         own.top(None, buffer, Shared::new(own_alpha));
@@ -223,7 +226,7 @@ impl<T: Scalar> Evaluation<'_, T> {
         }
     }
 
-    /// Up through blocks.
+    /// Upward pass through blocks.
     fn blocks_up(&self, mut blocks: SomeBlocks<'_, T>) {
         let Level {
             partition,
@@ -239,8 +242,8 @@ impl<T: Scalar> Evaluation<'_, T> {
         }
     }
 
-    /// Down through them. Where nothing was kept of the way up, it is taken again:
-    /// that takes less time than writing what is formed to memory and reading it back.
+    /// Runs the downward pass through blocks. If the results of the upward pass were not kept, each
+    /// block repeats it, which is faster than writing them to memory and reading them back.
     fn blocks_down(&self, mut blocks: SomeBlocks<'_, T>) {
         let Level {
             partition,
@@ -266,29 +269,32 @@ impl<T: Scalar> Evaluation<'_, T> {
         blocks: &'a mut SomeBlocks<'_, T>,
     ) -> Sweep<'a, T, T> {
         let Level {
-            partition, room, ..
+            partition,
+            block_memory,
+            ..
         } = blocks.level;
         let lasting = match partition.keeps {
-            true => take(&mut blocks.lasting, room.lasting()),
+            true => take(&mut blocks.lasting, block_memory.lasting()),
             false => &mut *blocks.lasting,
         };
-        self.block(block, room, [lasting, &mut *blocks.passing])
+        self.block(block, block_memory, [lasting, &mut *blocks.passing])
     }
 }
 
-/// A partition, and the state of all threads there.
+/// A partition of the tree into blocks, with the memory of all threads that compute it.
 #[derive(Clone, Copy, Debug)]
 struct Level<'a, T> {
     partition: &'a Partition,
-    room: &'a Room,
-    /// Values handed over at the first generation, and at the one that comes behind.
+    block_memory: &'a BlockMemory,
+    /// Values that blocks exchange at the partition's first generation, and at the generation after
+    /// its last.
     start: Interface<'a, T>,
     below: Option<Interface<'a, T>>,
     alpha: Shared<'a, T>,
 }
 
 impl<'a, T: Copy> Level<'a, T> {
-    /// The blocks of each thread.
+    /// Iterates over the threads: each gets a set of blocks and a part of the workspace.
     fn jobs<'b>(
         self,
         threads: usize,
@@ -298,35 +304,35 @@ impl<'a, T: Copy> Level<'a, T> {
         'a: 'b,
     {
         self.partition.jobs(threads).map(move |links| {
-            let room = layout::worker::<T>(self.partition, self.room, &links);
-            let mut own = take(&mut workers, room);
+            let block_memory = layout::worker::<T>(self.partition, self.block_memory, &links);
+            let mut own = take(&mut workers, block_memory);
             SomeBlocks {
                 level: self,
                 links,
-                passing: take(&mut own, self.room.passing()),
+                passing: take(&mut own, self.block_memory.passing()),
                 lasting: own,
             }
         })
     }
 }
 
-/// The blocks of a thread.
+/// Blocks of one thread.
 struct SomeBlocks<'a, T> {
     level: Level<'a, T>,
-    /// The blocks that start with these links.
+    /// First links of the blocks.
     links: Range<usize>,
     lasting: &'a mut [T],
     passing: &'a mut [T],
 }
 
-/// Writes the accelerations of one state to `alpha`, with 1 for each link that is `held`:
-/// NaN for slices of another length than there are links.
+/// Writes the accelerations of one state to `alpha`. `held` is 1 for each prescribed link and 0 for
+/// others. NaN if a slice does not have one number per link.
 pub(super) fn accelerations<T: Scalar, const BLOCKS: bool>(
     tree: &Skeleton<T>,
     sweep: SweepFn<T>,
     drive: Option<RootDrive<T>>,
     given: LinkStates<'_, T>,
-    held: Option<&[T]>,
+    prescribed: Option<&[T]>,
     alpha: &mut [T],
     workspace: &mut Workspace<T>,
 ) {
@@ -339,11 +345,11 @@ pub(super) fn accelerations<T: Scalar, const BLOCKS: bool>(
     let fit = [theta.len(), omega.len(), alpha.len()] == [links; 3];
     let unread =
         |given: Option<&[T]>, read: bool| given.is_some_and(|given| given.len() != links || !read);
-    if !fit || unread(torques, tree.sizes.forced) || unread(held, tree.sizes.held) {
+    if !fit || unread(torques, tree.sizes.forced) || unread(prescribed, tree.sizes.prescribed) {
         alpha.fill(T::from_f64(f64::NAN));
         return;
     }
-    let buffer = workspace.numbers(tree.room);
+    let buffer = workspace.numbers(tree.buffer);
     let unaligned = buffer.as_ptr().align_offset(LINE).min(line::<T>());
     let buffer = buffer.get_mut(unaligned..).unwrap_or_default();
     let evaluation = Evaluation {
@@ -351,19 +357,19 @@ pub(super) fn accelerations<T: Scalar, const BLOCKS: bool>(
         sweep,
         drive,
         given,
-        held,
+        prescribed,
     };
     if !tree.plan.order.is_empty() {
         return evaluation.in_order_of_strips(buffer, alpha);
     }
-    // Blocks come with threads, which small trees do without.
+    // Blocks need threads, which small trees are compiled without.
     match BLOCKS {
         true => evaluation.solve(0, None, buffer, Shared::new(alpha)),
         false => evaluation.top(None, buffer, Shared::new(alpha)),
     }
 }
 
-/// [`accelerations`] by equations that are compiled with a model.
+/// Pointer to [`accelerations`], together with the equations that are compiled with a model.
 type Accelerate<T> = fn(
     &Skeleton<T>,
     SweepFn<T>,
@@ -375,11 +381,11 @@ type Accelerate<T> = fn(
 );
 
 compiled_once! {
-    /// [`accelerations`] of a tree in one piece.
+    /// Pointer to [`accelerations`] for a tree that is computed as one block.
     pub(super) InOnePiece<T> = accelerations::<_, false>: Accelerate<T>
 }
 
 compiled_once! {
-    /// [`accelerations`] of a tree that may be in blocks.
+    /// Pointer to [`accelerations`] for a tree that may be divided into blocks.
     pub(super) InBlocks<T> = accelerations::<_, true>: Accelerate<T>
 }

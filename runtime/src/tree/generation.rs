@@ -1,40 +1,40 @@
-//! Generations, and where their links stand.
+//! Generations of a tree, and the positions of their links in arrays.
 
 use core::ops::Range;
 
-/// The neighbours of one generation in a block.
+/// Links of one generation in a block; they are neighbours in memory.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Generation {
-    /// Copies of this generation under each link of the one before.
+    /// Number of copies of this generation under each link of the one before.
     pub(super) copies: usize,
-    /// How many links there are, and in the whole tree.
+    /// Number of links of the generation in the block, and in the whole tree.
     pub(super) count: usize,
     pub(super) whole_count: usize,
-    /// Where the first one stands in the block's arrays of all links, and in those
-    /// of links with children.
+    /// Index of the generation's first link in the block's array of all links, and in its array of
+    /// links with children.
     pub(super) own: usize,
     pub(super) slot: usize,
-    /// Where the generation starts in the whole tree.
+    /// Index of the generation's first link in the arrays of the whole tree.
     pub(super) whole: usize,
-    /// There they are so many strips of neighbours of this length, ...
+    /// Number of strips (runs of neighbouring links) of the generation in the whole tree, and their
+    /// length.
     pub(super) strips: usize,
     pub(super) length: usize,
-    /// ... so far apart.
+    /// Distance between the starts of two strips in the arrays of the whole tree.
     pub(super) stride: usize,
-    /// From one neighbour to the next in the whole tree: 1, but for one link after the
-    /// other of states in lanes.
+    /// Distance between neighbouring links in the arrays of the whole tree: 1, except for many
+    /// states in lanes, whose links are computed one by one.
     pub(super) step: usize,
-    /// Where the generation before starts in the whole tree, and its number of links;
-    /// none for the root.
+    /// Generation before this one: index of its first link in the whole tree, and its number of
+    /// links; `None` for the root.
     pub(super) above: Option<(usize, usize)>,
 }
 
-/// The generations of `width` neighbours in the first of some generations, and of their
-/// children, copy by copy, and so on. In arrays of links with children, a generation
-/// starts where a register of any width would, and has room for a whole one.
+/// Iterates over the generations of a block: `width` neighbouring links in the first generation,
+/// then all of their children, copy by copy, and so on. In arrays of links with children, each
+/// generation starts at a boundary of the widest register and is padded to whole registers.
 ///
-/// A block has arrays of its own, in which its links stand as if there were no
-/// others.
+/// A block has its own arrays, which contain its links only.
 pub(super) fn generations(
     copies: &[usize],
     starts: &[usize],
@@ -75,7 +75,7 @@ pub(super) fn generations(
 }
 
 impl Generation {
-    /// Links of a tree of any shape, as if they were one.
+    /// Returns a range of links of a tree of any shape, treated as one generation.
     #[inline(always)]
     pub(super) fn of_links(links: Range<usize>) -> Self {
         let (start, links) = (links.start, links.len());
@@ -95,13 +95,13 @@ impl Generation {
     }
 }
 
-/// Neighbours of a generation: where the first one stands.
+/// Position of neighbouring links of a generation in the arrays.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Position {
-    /// In the block's own arrays of all links.
+    /// Index in the block's arrays of all links.
     pub(super) own: usize,
-    /// In its arrays of links with children.
+    /// Index in the block's arrays of links with children.
     pub(super) slot: usize,
-    /// In arrays of the whole tree.
+    /// Index in the arrays of the whole tree.
     pub(super) whole: usize,
 }

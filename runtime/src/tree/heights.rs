@@ -1,37 +1,38 @@
-//! Links of a tree of any shape by their heights.
+//! Order of the links of a tree of any shape by height, the distance to the deepest leaf below.
 
 use alloc::vec::Vec;
 use core::ops::Range;
 
-/// Small subtrees of a tree of any shape, side by side: links whose motions are formed at
-/// once, if they have not been before, and the strips that go up then.
+/// Group of small neighbouring subtrees of a tree of any shape: the links whose sines and cosines
+/// are computed together, and the strips of the upward pass that follows.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct SmallSubtrees {
     pub(super) links: Range<usize>,
     pub(super) strips: Range<usize>,
 }
 
-/// The links, from the root on, by height: the distance to the deepest leaf below.
+/// Links from the root on, ordered by height: the distance to the deepest leaf below.
 ///
-/// Among links of one height, those whose children have the same heights stand side by
-/// side, and children in the order of their parents: the longer neighbours keep
-/// together from strip to strip, the fewer attachments there are.
+/// Among links of one height, links whose children have the same heights are neighbours, and
+/// children are in the order of their parents. Then long runs of links have long runs of children,
+/// and fewer runs have to be joined.
 pub(super) struct Heights {
-    /// The number of the link in each place.
+    /// Index of the link at each position.
     pub(super) order: Vec<u32>,
-    /// The place of the parent of each of these; 0 for the root.
+    /// Position of the parent of the link at each position; 0 for the root.
     pub(super) parents: Vec<u32>,
-    /// Neighbours that are a strip, each behind those of its parents.
+    /// Ranges of positions that form a strip, each after the strips of its parents.
     pub(super) strips: Vec<Range<usize>>,
-    /// What goes up at once, the last one first.
+    /// Groups of subtrees that are computed together in the upward pass, the last group first.
     pub(super) subtrees: Vec<SmallSubtrees>,
-    /// Number of links at the front whose motions are formed before all others.
+    /// Number of links, counted from the root, whose sines and cosines are computed before those of
+    /// all others.
     pub(super) above: usize,
 }
 
 impl Heights {
-    /// Of the parents of all links, before which they stand; what is not before its
-    /// link is taken for the link before it.
+    /// Sorts the links of a tree, given the parent of each link. Parents must come before their
+    /// children; a parent that does not is replaced by the link before.
     pub(super) fn new(parents: &[u32]) -> Self {
         let parent = |link: usize| {
             let before = link.saturating_sub(1);
@@ -49,7 +50,7 @@ impl Heights {
         }
         let mut kinds: Vec<Vec<usize>> = Vec::with_capacity(links);
         for children in &mut children {
-            // The highest first, and of equal ones the first link.
+            // The highest first; among equal ones, the first link.
             children.reverse();
             children.sort_by_key(|&child| core::cmp::Reverse(heights[child]));
             kinds.push(children.iter().map(|&child| heights[child]).collect());
@@ -61,8 +62,8 @@ impl Heights {
         let mut order = Vec::with_capacity(links);
         let mut ranges = Vec::new();
         while let Some(mut strip) = strips.pop() {
-            // Those with more children first: of parents side by side, all with another
-            // child are the first ones then.
+            // Links with more children first: among neighbouring parents, those with one more child
+            // are then the first ones.
             strip.sort_by(|&one: &usize, &other: &usize| kinds[other].cmp(&kinds[one]));
             let most = strip.iter().map(|&link| children[link].len()).max();
             for number in 0..most.unwrap_or(0) {
@@ -91,8 +92,9 @@ impl Heights {
         }
     }
 
-    /// Where the sums of each link stand: those of some subtrees where those of others did, behind
-    /// those of the links above.
+    /// Returns for each link the index of the sum of its children's responses in the workspace.
+    /// Subtrees that are computed one after the other share the same part of the workspace, which
+    /// follows the part of the links above.
     pub(super) fn slots(&self) -> Vec<usize> {
         let mut slots: Vec<usize> = (0..self.parents.len()).collect();
         let subtrees = self.subtrees.iter();
@@ -104,10 +106,10 @@ impl Heights {
         slots
     }
 
-    /// Returns the same links in subtrees of at most so many, one behind the other and each
-    /// by height, behind the links above them: what is handed on in a subtree is found
-    /// nearby. The children of a link go up in the same order as by height alone, so that
-    /// their sum has the same bits.
+    /// Returns the same links grouped into subtrees of at most `most` links, one after the other
+    /// and each by height, after the links above them. The numbers that links of a subtree exchange
+    /// are then close in memory. The responses of a link's children are added in the same order as
+    /// if all links were sorted by height, so that the sum has the same bits.
     pub(super) fn in_subtrees(self, most: usize) -> Self {
         let links = self.order.len();
         let parent = |place: usize| self.parents[place] as usize;
@@ -131,7 +133,7 @@ impl Heights {
                 if let Ok(own) = order[..above].binary_search(&place) {
                     strips.push(own..own + 1);
                 }
-                // What is pushed first stands last, and goes up first: the lowest.
+                // The link pushed first comes last and goes up first: the lowest.
                 children[place].sort_unstable_by_key(|&child| (heights[child], child));
                 next.append(&mut children[place]);
             } else {
@@ -142,7 +144,7 @@ impl Heights {
                 links: start..order.len(),
                 strips: strip..strips.len(),
             };
-            // As many as fit side by side are taken together.
+            // Neighbouring subtrees that fit together are combined.
             match subtrees.last_mut() {
                 Some(last) if own.links.end - last.links.start <= most => {
                     (last.links.end, last.strips.end) = (own.links.end, own.strips.end);
@@ -168,7 +170,8 @@ impl Heights {
     }
 }
 
-/// Lays down the links below the last one, which stands at `start`, by height, and their strips.
+/// Appends the links below the last link of `order`, whose position is `start`, sorted by height,
+/// and their strips.
 fn lay_down(
     order: &mut Vec<usize>,
     start: usize,

@@ -1,25 +1,25 @@
-//! Values that blocks hand over to each other.
+//! Values that the blocks of a tree pass to each other.
 
 use super::generation::Generation;
 use super::memory::{Sizes, line, odd_lines};
 use super::shared::Shared;
 use super::sweep::Sweep;
 
-/// Numbers of the links of a generation in which blocks start: their responses, on the
-/// way down the accelerations of their pivots.
+/// Values of the links of a generation in which blocks start: in the upward pass their responses,
+/// in the downward pass the accelerations of their pivots.
 ///
-/// Several threads have it at one time, each with the links of its own blocks.
+/// Several threads use it at the same time, each for the links of its own blocks.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Interface<'a, T> {
     columns: Shared<'a, T>,
     stride: usize,
 }
 
-/// Accelerations of pivots.
+/// Number of values in a pivot's acceleration: x and y.
 const PIVOTS: usize = 2;
 
 impl<'a, T: Copy> Interface<'a, T> {
-    /// In this slice, for a generation of so many links.
+    /// Creates the interface in the memory of `slice`, for a generation of `count` links.
     pub(super) fn new(slice: &'a mut [T], count: usize) -> Self {
         Self {
             columns: Shared::new(slice),
@@ -35,7 +35,7 @@ impl<'a, T: Copy> Interface<'a, T> {
         });
     }
 
-    /// Loads the responses of the children of a block, which are not computed there.
+    /// Loads the responses of the links below a block, which are computed in other blocks.
     pub(super) fn load_responses(self, sweep: &mut Sweep<'_, T, T>) {
         let (last, columns) = (sweep.block.generations.last(), Self::responses(sweep));
         self.each(sweep, last, columns, |own, at, numbers| {
@@ -43,7 +43,7 @@ impl<'a, T: Copy> Interface<'a, T> {
         });
     }
 
-    /// Stores the accelerations of the pivots of these children.
+    /// Stores the accelerations of the pivots of the links below a block.
     pub(super) fn store_pivots(self, sweep: &mut Sweep<'_, T, T>) {
         let last = sweep.block.generations.last();
         self.each(sweep, last, PIVOTS, |own, at, numbers| {
@@ -51,7 +51,7 @@ impl<'a, T: Copy> Interface<'a, T> {
         });
     }
 
-    /// Loads the accelerations of the pivots in which a block starts.
+    /// Loads the accelerations of the pivots of a block's first links.
     pub(super) fn load_pivots(self, sweep: &mut Sweep<'_, T, T>) {
         let first = sweep.block.generations.first();
         self.each(sweep, first, PIVOTS, |own, at, numbers| {
@@ -59,13 +59,13 @@ impl<'a, T: Copy> Interface<'a, T> {
         });
     }
 
-    /// Number of columns of responses.
+    /// Returns the number of columns that a response has.
     fn responses(sweep: &Sweep<'_, T, T>) -> usize {
         sweep.storage.sizes.responses
     }
 
-    /// Hands over the neighbours of a block's generation in so many columns, strip by strip,
-    /// from the place where they start here.
+    /// Calls `hand` for each column and each strip of a block's generation, with the start index of
+    /// the strip in this interface and the block's numbers.
     fn each(
         self,
         sweep: &mut Sweep<'_, T, T>,
@@ -88,8 +88,8 @@ impl<'a, T: Copy> Interface<'a, T> {
 }
 
 impl<T> Interface<'_, T> {
-    /// How many numbers there are for a generation of so many links.
-    pub(super) fn room(count: usize, sizes: Sizes) -> usize {
+    /// Returns the number of values that the interface of a generation of `count` links stores.
+    pub(super) fn workspace_len(count: usize, sizes: Sizes) -> usize {
         sizes.responses * odd_lines(line::<T>(), count)
     }
 }

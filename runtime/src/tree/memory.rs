@@ -1,29 +1,30 @@
-//! Where the numbers of an evaluation stand.
+//! Positions, in memory, of the values that an evaluation computes.
 
 use super::block::SubtreeBlock;
 use super::columns::{Columns, Rows};
 use super::equations::{LinkEquations, Row};
 use crate::scalar::Scalar;
 
-/// Numbers that a link takes in memory.
+/// Numbers of values per link that an evaluation keeps in memory.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Sizes {
-    /// Constants of a row.
+    /// Number of constants in a row.
     pub(super) constants: usize,
-    /// Responses; on the way down, accelerations of pivots.
+    /// Number of values of a response; in the downward pass, of a pivot's acceleration.
     pub(super) responses: usize,
-    /// Sums of responses; on the way down, numbers that are handed to children. None
-    /// where constants are a row a generation: there, children are found without.
+    /// Number of values of a sum of responses; in the downward pass, of the values passed to
+    /// children. Zero if constants have one row per generation, because children are then found by
+    /// index.
     pub(super) sums: usize,
-    /// Numbers of the elimination.
+    /// Number of values that the upward pass keeps of a link with children for the downward pass.
     pub(super) eliminations: usize,
-    /// Equations read joint angles and rates.
+    /// True if the equations use joint angles and rates.
     pub(super) joints: bool,
-    /// Equations read torques from outside.
+    /// True if the equations use external torques.
     pub(super) forced: bool,
-    /// Equations read which links are held.
-    pub(super) held: bool,
-    /// Constants are a row a link.
+    /// True if the equations use the flags of prescribed links.
+    pub(super) prescribed: bool,
+    /// True if constants have one row per link instead of one per generation.
     pub(super) by_link: bool,
 }
 
@@ -45,24 +46,24 @@ impl Sizes {
             eliminations: <E::Elimination<V> as Row<V>>::LENGTH,
             joints: E::JOINTS,
             forced: E::FORCED,
-            held: E::HELD,
+            prescribed: E::PRESCRIBED,
             by_link,
         }
     }
 
-    /// Returns the same for a tree of so many links, whose memory can be counted: what is
-    /// computed with these sizes does not overflow.
+    /// Returns the same sizes after checking that the memory size for a tree of `links` links does
+    /// not overflow.
     ///
     /// # Panics
-    /// Of a tree whose memory could have no address, or whose links have no number.
+    /// If the memory of the tree exceeds the address space, or the number of links its index type.
     pub(super) const fn of_links(self, links: usize) -> Self {
         let numbers = self.motion() as u128
             + self.constants as u128
             + self.responses as u128
             + self.sums as u128
             + self.eliminations as u128;
-        // With a wide margin: ends of columns are rounded up, and places of links with children,
-        // which may be one a generation, to a register.
+        // With a wide margin: ends of columns are rounded up, and indices of links with children,
+        // possibly one a generation, are rounded up to a register.
         let all = numbers
             .saturating_mul(64)
             .saturating_mul(links as u128 + 4096);
@@ -73,8 +74,8 @@ impl Sizes {
         self
     }
 
-    /// Numbers of a link's motion: sine, cosine, velocity, joint angle and rate, torque
-    /// from outside, held or not.
+    /// Returns the number of values of a link's motion: sine, cosine, velocity, joint angle and
+    /// rate, external torque, flag of a prescribed link.
     #[inline(always)]
     pub(super) const fn motion(&self) -> usize {
         3 + self.joint_motions() + self.outside()
@@ -85,7 +86,7 @@ impl Sizes {
         if self.joints { 2 } else { 0 }
     }
 
-    /// Numbers that come from outside.
+    /// Returns the number of input values per link: external torque, and flag of a prescribed link.
     #[inline(always)]
     pub(super) const fn outside(&self) -> usize {
         self.torques() + self.holds()
@@ -98,50 +99,50 @@ impl Sizes {
 
     #[inline(always)]
     const fn holds(&self) -> usize {
-        if self.held { 1 } else { 0 }
+        if self.prescribed { 1 } else { 0 }
     }
 }
 
-/// Columns start where cache lines do: a vector that crosses from one into the
-/// next takes two accesses.
+/// Size of a cache line, in bytes. Columns start at cache lines, because a vector that crosses
+/// lines takes two accesses.
 pub(super) const LINE: usize = 64;
 
-/// Numbers of type `T` in a line.
+/// Returns how many numbers of type `T` fit into a cache line.
 pub(super) fn line<T>() -> usize {
     (LINE / size_of::<T>().max(1)).max(1)
 }
 
-/// An odd number of lines: columns whose distances are multiples of a power of two
-/// compete for the same places of the cache.
+/// Rounds a length, in numbers, up to an odd number of cache lines: columns whose distances are a
+/// power of two compete for the same cache sets.
 pub(super) const fn odd_lines(line: usize, numbers: usize) -> usize {
     (numbers.div_ceil(line) | 1) * line
 }
 
-/// Sizes of the memory for a block.
+/// Sizes of the workspace of one block.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Room {
+pub(super) struct BlockMemory {
     sizes: Sizes,
-    /// Unused numbers before those of all links, so that their longest generation
-    /// starts with a line.
+    /// Number of unused numbers in front of each column, so that the longest generation starts at a
+    /// cache line.
     lead: usize,
-    /// The length of columns of all links.
+    /// Length of each column that has one number per link.
     links: usize,
-    /// The length of columns of links with children.
+    /// Length of each column that has one number per link with children.
     slots: usize,
-    /// True if velocities are read where they are given: in a whole tree, whose links
-    /// stand there as here, if registers do not reach beyond the last one's. In blocks
-    /// they would compete for the same places of the cache, far as the strips are from
-    /// each other.
+    /// True if velocities are read from the caller's slice instead of being copied. This is
+    /// possible if the block is the whole tree, so that the links have the same order, and if no
+    /// register reads past the end. In smaller blocks, strips that are far apart would compete for
+    /// the same cache sets.
     given: bool,
 }
 
-impl Room {
-    /// For numbers of which so many are in a line.
+impl BlockMemory {
+    /// Computes the sizes for a block, with `line` numbers in a cache line.
     pub(super) fn new(block: &SubtreeBlock<'_>, sizes: Sizes, line: usize) -> Self {
         let last = block.own_generations().last().map_or(0, |last| last.own);
         let lead = last.next_multiple_of(line) - last;
         let beyond = block.has_leaves && block.strips.reach().own > block.links();
-        // A register more: the last numbers are read with what is behind them.
+        // One register more, because the last numbers are read together with those after them.
         Self {
             given: block.widest > 1 && block.is_whole() && !beyond,
             sizes,
@@ -151,19 +152,19 @@ impl Room {
         }
     }
 
-    /// How many numbers are read on the way down that were formed on the way up.
+    /// Returns how many numbers the upward pass leaves for the downward pass.
     pub(super) fn lasting(&self) -> usize {
         let given = if self.given { 1 } else { 0 };
         (self.sizes.motion() - given) * self.links + self.sizes.eliminations * self.slots
     }
 
-    /// How many others there are.
+    /// Returns how many numbers only the upward pass uses.
     pub(super) fn passing(&self) -> usize {
         (self.sizes.responses + self.sizes.sums) * self.slots
     }
 
-    /// The fronts of two buffers as memory for a block: in rows of the links, or in
-    /// columns.
+    /// Takes the workspace of a block from the fronts of two buffers, stored in rows (one per link)
+    /// or in columns.
     #[inline(always)]
     pub(super) fn storage<'a, T: Copy>(
         &self,
@@ -180,7 +181,7 @@ impl Room {
             given,
             ..
         } = self;
-        let (sincos, velocities, joint_motions, torques, held);
+        let (sincos, velocities, joint_motions, torques, prescribed);
         if in_rows {
             let width = sizes.motion();
             let rows = Rows::new(take(lasting, width * links), width);
@@ -188,17 +189,17 @@ impl Room {
             velocities = Some(rows.columns(2));
             joint_motions = rows.columns(3);
             torques = rows.columns(3 + sizes.joint_motions());
-            held = rows.columns(3 + sizes.joint_motions() + sizes.torques());
+            prescribed = rows.columns(3 + sizes.joint_motions() + sizes.torques());
         } else {
             sincos = Columns::new(take(lasting, 2 * links), links);
             velocities = match given {
                 true => None,
                 false => Some(Columns::new(take(lasting, links), links)),
             };
-            // Empty where there are none.
+            // Empty if nothing acts in joints.
             joint_motions = Columns::new(take(lasting, sizes.joint_motions() * links), links);
             torques = Columns::new(take(lasting, sizes.torques() * links), links);
-            held = Columns::new(take(lasting, sizes.holds() * links), links);
+            prescribed = Columns::new(take(lasting, sizes.holds() * links), links);
         }
         Storage {
             sizes,
@@ -207,7 +208,7 @@ impl Room {
             velocities,
             joint_motions,
             torques,
-            held,
+            prescribed,
             lead,
             responses: take(&mut passing, sizes.responses * slots),
             sums: take(&mut passing, sizes.sums * slots),
@@ -217,38 +218,41 @@ impl Room {
     }
 }
 
-/// Numbers of a block that are formed on the way up and read on the way down.
+/// Numbers of a block that the upward pass computes and the downward pass reads.
 #[derive(Debug)]
 pub(super) struct Storage<'a, T> {
     pub(super) sizes: Sizes,
-    /// The numbers of a link stand side by side, and not those of neighbours.
+    /// True if the numbers of one link are contiguous in memory (rows); false if the same number of
+    /// neighbouring links is (columns).
     pub(super) in_rows: bool,
-    /// Sine and cosine of each link's angle, from row `lead` on.
+    /// Sines and cosines of the links' angles; the first link has index `lead`.
     pub(super) sincos: Columns<'a, T, 2>,
-    /// Angular velocities in the same rows; none where they are read where they are given.
+    /// Angular velocities; the first link has index `lead`. `None` if they are read from the
+    /// caller's slice.
     pub(super) velocities: Option<Columns<'a, T, 1>>,
-    /// Angles and velocities relative to the parents in the same rows; empty where nothing
-    /// acts in joints.
+    /// Angles and velocities relative to the parents; the first link has index `lead`. Empty if no
+    /// torques act in joints.
     pub(super) joint_motions: Columns<'a, T, 2>,
-    /// Torques from outside in the same rows; empty where equations read none.
+    /// External torques; the first link has index `lead`. Empty if the equations use none.
     pub(super) torques: Columns<'a, T, 1>,
-    /// 1 for held links and 0 for others in the same rows; empty where equations read none.
-    pub(super) held: Columns<'a, T, 1>,
+    /// Flags: 1 for prescribed links and 0 for others; the first link has index `lead`. Empty if
+    /// the equations use no flags.
+    pub(super) prescribed: Columns<'a, T, 1>,
     pub(super) lead: usize,
-    /// Columns of responses of links with children; on the way down the first two
-    /// hold the accelerations of their pivots.
+    /// Columns of the responses of links with children; in the downward pass the first two hold the
+    /// accelerations of the links' pivots.
     pub(super) responses: &'a mut [T],
     /// Columns of sums of responses.
     pub(super) sums: &'a mut [T],
     /// Columns of eliminations.
     pub(super) eliminations: &'a mut [T],
-    /// The length of these columns.
+    /// Length of the columns that have one number per link with children.
     pub(super) slots: usize,
 }
 
 impl<T> Storage<'_, T> {
-    /// The first `count` responses of a link, of numbers in rows; none where there are
-    /// fewer.
+    /// Returns the first `count` values of the response of link `at`, if numbers are stored in
+    /// rows; empty if there are fewer.
     #[inline(always)]
     pub(super) fn row_of_responses(&mut self, at: usize, count: usize) -> &mut [T] {
         let start = at * self.sizes.responses;
@@ -257,7 +261,8 @@ impl<T> Storage<'_, T> {
             .unwrap_or_default()
     }
 
-    /// `length` numbers of a column of responses; none where there are fewer.
+    /// Returns `length` numbers of a column of responses from link `at` on; empty if there are
+    /// fewer.
     pub(super) fn responses_mut(&mut self, column: usize, at: usize, length: usize) -> &mut [T] {
         let start = column * self.slots + at;
         self.responses
@@ -266,7 +271,7 @@ impl<T> Storage<'_, T> {
     }
 }
 
-/// Takes `length` numbers off the front.
+/// Splits the first `length` numbers off a buffer.
 pub(super) fn take<'a, T>(buffer: &mut &'a mut [T], length: usize) -> &'a mut [T] {
     let whole = core::mem::take(buffer);
     let (front, rest) = whole.split_at_mut(length.min(whole.len()));

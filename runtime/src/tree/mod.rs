@@ -1,32 +1,31 @@
 //! Large trees: equations of motion in loops.
 //!
-//! The attribute writes the equations of one link ([`LinkEquations`]); a [`Tree`]
-//! takes them from the leaves to the root and back. Time and memory are proportional
-//! to the number of links; code and the time to compile it do not depend on it.
+//! The attribute emits the equations of one link ([`LinkEquations`]). A [`Tree`] evaluates them in
+//! an upward pass (leaves to root) and a downward pass. Time and memory are proportional to the
+//! number of links; code size and compile time do not depend on it.
 //!
 //! # Strips
-//! Links that are computed together are a strip: neighbours in memory, several in a
-//! vector register. In a tree by rule a generation is a strip, with one row of
-//! constants; in any other tree all links of one height are one, height being the
-//! distance to the deepest leaf below, with constants in columns. Many states of one
-//! tree go the same way, with a register of states in place of each number.
+//! Links that are computed together form a strip: neighbours in memory, several in a vector
+//! register. In a tree by rule a generation is a strip, with one row of constants. In any other
+//! tree all links of one height are a strip, with constants in columns; the height is the distance
+//! to the deepest leaf below. Many states of one tree are computed in the same order, with a
+//! register of states in place of each number.
 //!
 //! # Order of the links in a tree by rule
-//! Generation by generation from the root on. Within a generation the first
-//! copies under all parents come first, in the order of the parents, then the
-//! second copies: copy `c` (from 0) under link `i` of a generation of `n` links
-//! has number `c · n + i` in the next one. Neighbours then have neighbouring
-//! parents, and no vector has to be gathered. [`Tree::link`] finds a link by its path
-//! from the root.
+//! Generation by generation from the root on. Within a generation the first copies under all
+//! parents come first, in the order of the parents, then the second copies: copy `c` (from 0) under
+//! link `i` of a generation of `n` links has index `c · n + i` in the next one. Neighbours then
+//! have neighbouring parents, and no vector has to be gathered. [`Tree::link`] finds a link by its
+//! path from the root.
 //!
 //! # Cost
-//! O(links). Beyond some thousand links the lower generations are computed block by
-//! block, each one small enough for the cache; from [`THREADED`] links on, on several
-//! threads. The result has the same bits for any number of threads.
+//! O(links). Beyond some thousand links the lower generations are computed block by block, each
+//! block small enough for the cache; from [`THREADED`] links on, with several threads. The result
+//! has the same bits for any number of threads.
 //!
 //! # Source
-//! R. Featherstone, Rigid Body Dynamics Algorithms, 2008, ch. 7
-//! (articulated-body algorithm), in the plane; `docs/physics.md`, section 2.
+//! R. Featherstone, Rigid Body Dynamics Algorithms, 2008, ch. 7 (articulated-body algorithm), in
+//! the plane; `docs/physics.md`, section 2.
 
 mod block;
 mod bodies;
@@ -37,7 +36,6 @@ mod equations;
 mod evaluate;
 mod generation;
 mod heights;
-mod held;
 mod interface;
 mod layout;
 mod memory;
@@ -46,6 +44,7 @@ mod output;
 mod partition;
 mod plan;
 mod prefetch;
+mod prescribed;
 mod properties;
 mod root;
 mod scales;
@@ -64,7 +63,7 @@ use core::marker::PhantomData;
 use core::num::NonZeroUsize;
 
 pub use crate::system::LinkName;
-pub use bodies::{Bodies, BodyEquations, PointEquations};
+pub use bodies::{Bodies, BodyEquations, LinkSlopes, PointEquations};
 pub use equations::{LinkEquations, LinkMotion, Row};
 pub use properties::PropertyTable;
 pub use root::RootDrive;
@@ -84,33 +83,33 @@ use memory::Sizes;
 use partition::Policy;
 use skeleton::{ByGeneration, ByLink, Skeleton};
 
-/// Trees of at least so many links are computed on all cores, unless
-/// [`Tree::set_threads`] says otherwise: below, threads cost more than they save.
+/// Number of links from which on a tree is computed on all cores, unless [`Tree::set_threads`] sets
+/// the number of threads. For fewer links, starting threads takes longer than they save.
 pub const THREADED: usize = 1 << 17;
 
-/// A large tree: its shape and constants, and the equations `E` of its links. Emitted
-/// models hold one.
+/// A large tree: its topology and constants, with the equations `E` of its links. Emitted models
+/// contain one.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tree<E, T> {
     skeleton: Skeleton<T>,
-    /// What acts on the difference of two links' angles, of links that are not parent and child.
+    /// Springs and friction between links that are not parent and child.
     spring_dampers: SpringDampers<T>,
-    /// What acts along lines between points of links, and to the ground.
+    /// Springs and dampers along lines between points of links, and to the ground.
     translational: TranslationalSpringDampers<T>,
     equations: PhantomData<E>,
 }
 
 impl<E: LinkEquations, T: Scalar> Tree<E, T> {
-    /// The tree is so large that it may be computed in blocks.
+    /// True if the tree is so large that it may be computed in blocks.
     const IN_BLOCKS: bool = links(Self::COPIES) > Policy::ONE_STATE.whole;
 
-    /// Numbers of a link. Equations of a tree by generations that is too large for memory are
-    /// not compiled.
+    /// Number of values per link. Too large a tree, which would not fit into memory, is rejected at
+    /// compile time.
     const SIZES: Sizes = Sizes::of::<E, T>().of_links(links(Self::COPIES));
 
-    /// A tree by generations, with a row of constants for each, one after the other,
-    /// and the acceleration of the root's pivot against gravity, in the unit of the
-    /// equations.
+    /// Creates a tree that is described by generations. `rows` holds one row of constants per
+    /// generation; `root` is the acceleration of the root's pivot relative to free fall, in the
+    /// units of the equations.
     #[must_use]
     pub fn new(rows: Vec<T>, root: [T; 2]) -> Self {
         let skeleton = compiled::<ByGeneration, T>();
@@ -121,11 +120,11 @@ impl<E: LinkEquations, T: Scalar> Tree<E, T> {
         Self::of_skeleton(skeleton(Self::COPIES, Self::SIZES, rows, root, threads))
     }
 
-    /// A tree of any shape, with the parent of each link, which stands before it (the
-    /// root's own is 0), and a row of constants for each.
+    /// Creates a tree of any shape, from the parent of each link and a row of constants for each
+    /// link. A parent comes before its children; the root's parent is 0.
     ///
     /// # Panics
-    /// Of more links than memory has room for, as a vector of so many numbers does.
+    /// If the tree has more links than fit into memory.
     #[must_use]
     pub fn with_parents(parents: &[u32], rows: &[T], root: [T; 2]) -> Self {
         let skeleton = compiled::<ByLink, T>();
@@ -133,7 +132,8 @@ impl<E: LinkEquations, T: Scalar> Tree<E, T> {
         Self::of_skeleton(skeleton(parents, sizes, rows, root))
     }
 
-    /// A tree between whose links nothing acts.
+    /// Creates a tree without springs and friction between its links from its topology and
+    /// constants.
     fn of_skeleton(skeleton: Skeleton<T>) -> Self {
         let links = skeleton.plan.links();
         Self {
@@ -144,15 +144,15 @@ impl<E: LinkEquations, T: Scalar> Tree<E, T> {
         }
     }
 
-    /// Computes on so many threads, where the tree is large enough to be taken
-    /// apart. Results do not depend on it.
+    /// Sets the number of threads, which is used if the tree is large enough to be computed in
+    /// blocks. Results do not depend on it.
     pub fn set_threads(&mut self, threads: NonZeroUsize) {
         self.skeleton.set_threads(threads.get());
     }
 
     /// Writes the angular accelerations, as
-    /// [`Pendulum::accelerations_with`](crate::Pendulum::accelerations_with), of a
-    /// driven tree at a time of its drive.
+    /// [`Pendulum::accelerations_with`](crate::Pendulum::accelerations_with); for a driven tree at
+    /// one time of its drive.
     pub fn accelerations_with(
         &self,
         workspace: &mut Workspace<T>,
@@ -169,10 +169,9 @@ impl<E: LinkEquations, T: Scalar> Tree<E, T> {
         self.accelerate(workspace, drive, given, alpha);
     }
 
-    /// Writes the angular accelerations under torques from outside, as
-    /// [`Forced::accelerations_under_with`](crate::Forced::accelerations_under_with):
-    /// NaN for equations that read none
-    /// ([`LinkEquations::FORCED`]).
+    /// Writes the angular accelerations under external torques, as
+    /// [`Forced::accelerations_under_with`](crate::Forced::accelerations_under_with). NaN for
+    /// equations without external torques ([`LinkEquations::FORCED`]).
     pub fn accelerations_under_with(
         &self,
         workspace: &mut Workspace<T>,
@@ -188,8 +187,8 @@ impl<E: LinkEquations, T: Scalar> Tree<E, T> {
         self.accelerate(workspace, drive, given, alpha);
     }
 
-    /// Writes the accelerations without torques from outside, in memory that is
-    /// allocated for this once.
+    /// Writes the accelerations without external torques, with a workspace that is allocated for
+    /// each call.
     pub fn accelerations_into(
         &self,
         drive: Option<RootDrive<T>>,
@@ -200,7 +199,7 @@ impl<E: LinkEquations, T: Scalar> Tree<E, T> {
         self.accelerations_with(&mut Workspace::new(), drive, theta, omega, alpha);
     }
 
-    /// Returns the same tree on other scalars; computed on as many threads.
+    /// Returns the same tree with constants of another scalar type and the same number of threads.
     #[must_use]
     pub fn cast<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Tree<E, S> {
         Tree {
@@ -211,8 +210,8 @@ impl<E: LinkEquations, T: Scalar> Tree<E, T> {
         }
     }
 
-    /// Tells the accelerations in the arithmetic of `T`, as
-    /// [`Pendulum::evaluate`](crate::Pendulum::evaluate). Allocates.
+    /// Passes the acceleration of each link to `alpha`, computed in the arithmetic of `T`, as
+    /// [`Pendulum::evaluate`](crate::Pendulum::evaluate) does. Allocates.
     #[inline(always)]
     pub fn evaluate(
         &self,
@@ -221,13 +220,13 @@ impl<E: LinkEquations, T: Scalar> Tree<E, T> {
         omega: impl Fn(usize) -> T,
         alpha: impl FnMut(usize, T),
     ) {
-        let mut room = alloc::vec![T::from_f64(0.0); self.room()];
+        let mut buffer = alloc::vec![T::from_f64(0.0); self.workspace_len()];
         let none = |_| [T::from_f64(0.0); 2];
-        self.accelerate_states::<T>(drive, &mut room, theta, omega, none, alpha);
+        self.accelerate_states::<T>(drive, &mut buffer, theta, omega, none, alpha);
     }
 
-    /// Writes the accelerations under torques from outside, likewise; NaN where lengths
-    /// do not fit, and for equations that read none.
+    /// Writes the accelerations under external torques, computed in the arithmetic of `T`. NaN if a
+    /// slice does not have one number per link, and for equations without external torques.
     #[inline(always)]
     pub fn evaluate_under(
         &self,
@@ -243,8 +242,9 @@ impl<E: LinkEquations, T: Scalar> Tree<E, T> {
         self.evaluate_given(drive, given, alpha);
     }
 
-    /// Writes the accelerations likewise, under torques or none, in a function of its own that all
-    /// callers share: it is long. The function is compiled for the instructions of the numbers.
+    /// Writes the accelerations with or without external torques. This is a separate function that
+    /// all callers share, because it is long; it is compiled for the vector instructions of the
+    /// numbers.
     pub fn evaluate_apart(
         &self,
         drive: Option<RootDrive<T>>,
@@ -272,12 +272,12 @@ impl<E: LinkEquations, T: Scalar> Tree<E, T> {
             alpha.fill(T::from_f64(f64::NAN));
             return;
         }
-        let mut room = alloc::vec![T::from_f64(0.0); self.room()];
+        let mut buffer = alloc::vec![T::from_f64(0.0); self.workspace_len()];
         let zero = T::from_f64(0.0);
         let torque = |link| torques.map_or(zero, |torques| at(torques, link));
         self.accelerate_states::<T>(
             drive,
-            &mut room,
+            &mut buffer,
             |link| at(theta, link),
             |link| at(omega, link),
             |link| [torque(link), zero],
@@ -285,31 +285,31 @@ impl<E: LinkEquations, T: Scalar> Tree<E, T> {
         );
     }
 
-    /// Returns how many values a register of states takes in a batch.
+    /// Returns the workspace length that a batch needs for one register of states.
     #[doc(hidden)]
     #[must_use]
-    pub fn room(&self) -> usize {
+    pub fn workspace_len(&self) -> usize {
         let torques = match E::COUPLED {
             true => self.skeleton.plan.links(),
             false => 0,
         };
-        states::room(&self.skeleton) + torques
+        states::workspace_len(&self.skeleton) + torques
     }
 
-    /// Returns many states in registers, with so much room for each.
+    /// Returns the evaluator of many states in registers, which uses `room` as workspace.
     #[doc(hidden)]
     #[inline(always)]
     pub fn in_registers<V: Simd<T>>(
         &self,
         drive: Option<RootDrive<T>>,
-        room: &mut [T],
+        buffer: &mut [T],
     ) -> impl InRegisters<V> {
-        WithRoom {
+        WithWorkspace {
             tree: self,
             drive: drive.map(|drive| drive.map(V::splat)),
-            room: match wide_slice::<T, V>(room) {
+            buffer: match wide_slice::<T, V>(buffer) {
                 Some(values) => LentOrOwn::Lent(values),
-                None => LentOrOwn::Own(alloc::vec![V::from_f64(0.0); self.room()]),
+                None => LentOrOwn::Own(alloc::vec![V::from_f64(0.0); self.workspace_len()]),
             },
         }
     }
@@ -327,20 +327,20 @@ impl<E: LinkEquations, T: Scalar> Part<0, ApartArguments<'_, T>> for Tree<E, T> 
     }
 }
 
-/// A tree at one time of its drive, and room for the values of states.
-struct WithRoom<'t, 'r, E, T, V> {
+/// A tree at one time of its drive, with the workspace for several states in registers.
+struct WithWorkspace<'t, 'r, E, T, V> {
     tree: &'t Tree<E, T>,
     drive: Option<RootDrive<V>>,
-    room: LentOrOwn<'r, V>,
+    buffer: LentOrOwn<'r, V>,
 }
 
-/// Memory for values.
+/// Workspace, either the caller's or allocated.
 enum LentOrOwn<'r, V> {
     Lent(&'r mut [V]),
     Own(Vec<V>),
 }
 
-impl<E: LinkEquations, T: Scalar, V: Simd<T>> InRegisters<V> for WithRoom<'_, '_, E, T, V> {
+impl<E: LinkEquations, T: Scalar, V: Simd<T>> InRegisters<V> for WithWorkspace<'_, '_, E, T, V> {
     #[inline(always)]
     fn evaluate(
         &mut self,
@@ -348,18 +348,18 @@ impl<E: LinkEquations, T: Scalar, V: Simd<T>> InRegisters<V> for WithRoom<'_, '_
         omega: impl Fn(usize) -> V,
         alpha: impl FnMut(usize, V),
     ) {
-        let room = match &mut self.room {
+        let buffer = match &mut self.buffer {
             LentOrOwn::Lent(values) => &mut **values,
             LentOrOwn::Own(values) => values,
         };
         let none = |_| [V::from_f64(0.0); 2];
         self.tree
-            .accelerate_states(self.drive, room, theta, omega, none, alpha);
+            .accelerate_states(self.drive, buffer, theta, omega, none, alpha);
     }
 }
 
-/// Returns numbers in a model's scalar. Each is given as the `f64` nearest to it and
-/// the `f64` nearest to the rest.
+/// Converts exact numbers to a model's scalar. Each exact number is given as two `f64`: the nearest
+/// one, and the one nearest to the remainder.
 #[must_use]
 pub fn numbers<T: Scalar>(exact: &[[f64; 2]]) -> Vec<T> {
     compiled::<Numbers, T>()(exact)
@@ -371,7 +371,7 @@ fn rounded<T: Scalar>(exact: &[[f64; 2]]) -> Vec<T> {
 }
 
 compiled_once! {
-    /// [`rounded`].
+    /// Function pointer to [`rounded`].
     Numbers<T> = rounded: fn(&[[f64; 2]]) -> Vec<T>
 }
 

@@ -1,4 +1,4 @@
-//! Sines, cosines and joint motions that equations read, formed before the recursion.
+//! Computes the sines, cosines and joint motions that the equations use, before the recursion.
 
 use super::block::SubtreeBlock;
 use super::columns::{Columns, load_front};
@@ -9,16 +9,16 @@ use super::sweep::Sweep;
 use crate::scalar::Scalar;
 use crate::simd::{Kernel, Simd};
 
-/// Sines and cosines of a block's angles, and its velocities.
+/// Input of the computation of sines, cosines and joint motions of a block.
 pub(super) struct Motions<'a, 'b, T> {
     pub(super) sweep: &'a mut Sweep<'b, T, T>,
     pub(super) theta: &'a [T],
     pub(super) omega: &'a [T],
-    /// Torques from outside; none where there are none.
+    /// External torques on the links, if there are any.
     pub(super) torques: Option<&'a [T]>,
-    /// Which links are held; none where none is.
-    pub(super) held: Option<&'a [T]>,
-    /// Where results are written once the block has gone up.
+    /// Flags of prescribed links (1 or 0), if there are any.
+    pub(super) prescribed: Option<&'a [T]>,
+    /// Destination of the accelerations, if they are written directly after the upward pass.
     pub(super) alpha: Option<Shared<'a, T>>,
 }
 
@@ -37,14 +37,14 @@ impl<T: Scalar> Kernel<T> for Motions<'_, '_, T> {
                 velocities: storage
                     .velocities
                     .and_then(|column| column.window(start, rows)),
-                torques: Given::of(
+                torques: CallerColumn::of(
                     storage.sizes.forced.then_some(storage.torques),
                     self.torques,
                     [whole, start, rows],
                 ),
-                held: Given::of(
-                    storage.sizes.held.then_some(storage.held),
-                    self.held,
+                prescribed: CallerColumn::of(
+                    storage.sizes.prescribed.then_some(storage.prescribed),
+                    self.prescribed,
                     [whole, start, rows],
                 ),
                 ahead: block.ahead(),
@@ -55,32 +55,32 @@ impl<T: Scalar> Kernel<T> for Motions<'_, '_, T> {
     }
 }
 
-/// Neighbours.
+/// A span of neighbouring links.
 struct Span<'a, T> {
     theta: &'a [T],
     omega: &'a [T],
     sincos: Option<Columns<'a, T, 2>>,
     velocities: Option<Columns<'a, T, 1>>,
-    /// Torques from outside, where equations read them.
-    torques: Option<Given<'a, T>>,
-    /// Held links, where equations read these as well.
-    held: Option<Given<'a, T>>,
-    /// How far the links are that come next.
+    /// External torques on the links, if the equations use them.
+    torques: Option<CallerColumn<'a, T>>,
+    /// Flags of prescribed links (1 or 0), if the equations use them.
+    prescribed: Option<CallerColumn<'a, T>>,
+    /// Distance to the links that are computed next, whose numbers are prefetched.
     ahead: Option<usize>,
-    /// The results, where they are written next.
+    /// Destination of the accelerations, if they are written directly afterwards.
     alpha: Option<Shared<'a, T>>,
 }
 
-/// Numbers that the caller hands over, and where equations read them.
-struct Given<'a, T> {
+/// Numbers of the caller, and the column to which they are copied for the equations.
+struct CallerColumn<'a, T> {
     column: Columns<'a, T, 1>,
-    /// None for zeros.
+    /// The caller's numbers; `None` means that all are zero.
     values: Option<&'a [T]>,
 }
 
-impl<'a, T: Scalar> Given<'a, T> {
-    /// Numbers of neighbours, from one place in the tree on and from one in the column, in so
-    /// many rows.
+impl<'a, T: Scalar> CallerColumn<'a, T> {
+    /// Selects the numbers of `rows` neighbouring links: from index `whole` on in the caller's
+    /// slice, and from index `start` on in the column.
     #[inline(always)]
     fn of(
         column: Option<Columns<'a, T, 1>>,
@@ -104,8 +104,8 @@ impl<'a, T: Scalar> Given<'a, T> {
 }
 
 impl<T: Scalar> Span<'_, T> {
-    /// Two vectors at a time, for while the result of one operation is awaited the
-    /// other keeps the processor busy. The last ones overlap those before.
+    /// Computes sines and cosines, two vectors at a time: while one waits for a result, the other
+    /// keeps the processor busy. The last vectors overlap those before.
     #[inline(always)]
     fn form<V: Simd<T>>(self) -> Option<()> {
         let (sincos, count) = (self.sincos?, self.theta.len());
@@ -122,8 +122,8 @@ impl<T: Scalar> Span<'_, T> {
                 }
                 if let Some(torques) = &self.torques {
                     torques.store::<V>(places[i])?;
-                    if let Some(held) = &self.held {
-                        held.store::<V>(places[i])?;
+                    if let Some(prescribed) = &self.prescribed {
+                        prescribed.store::<V>(places[i])?;
                     }
                 }
                 if let Some(ahead) = self.ahead {
@@ -141,8 +141,8 @@ impl<T: Scalar> Span<'_, T> {
     }
 }
 
-/// Forms joint angles and rates of a block; `parents` has the place of each link's
-/// parent in a tree of any shape, and nothing otherwise.
+/// Computes joint angles and rates of a block. For a tree of any shape, `parents` holds the
+/// position of each link's parent; otherwise it is empty.
 pub(super) fn joint_motions<T: Scalar>(
     sweep: &mut Sweep<'_, T, T>,
     parents: &[u32],
@@ -162,18 +162,18 @@ pub(super) fn joint_motions<T: Scalar>(
     }
 }
 
-/// Where a link of a block stands: there, in the tree and in its generation.
+/// Position of a link: its index in the block, in the tree, and in its generation.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct LinkPlace {
+pub(super) struct LinkPosition {
     pub(super) own: usize,
     pub(super) place: usize,
     number: usize,
     above: Option<(usize, usize)>,
 }
 
-impl LinkPlace {
-    /// Returns the place of the parent, but for the root; in a tree of any shape these
-    /// are the parents of all.
+impl LinkPosition {
+    /// Returns the index of the link's parent; `None` for the root. For a tree of any shape,
+    /// `parents` holds the parents of all links.
     #[inline(always)]
     pub(super) fn parent(&self, parents: &[u32]) -> Option<usize> {
         match self.above {
@@ -184,7 +184,7 @@ impl LinkPlace {
     }
 }
 
-/// The links of a block, span by span.
+/// Iterator over the links of a block, span by span.
 pub(super) struct Links<'a> {
     generations: &'a [Generation],
     start: usize,
@@ -204,12 +204,12 @@ impl<'a> Links<'a> {
     }
 
     #[inline(always)]
-    pub(super) fn next(&mut self) -> Option<LinkPlace> {
+    pub(super) fn next(&mut self) -> Option<LinkPosition> {
         let generation = self.generations.first()?;
         let own = generation.own + self.span * generation.length + self.index;
         let within = self.span * generation.stride + self.index * generation.step;
         let number = self.start + within;
-        let link = LinkPlace {
+        let link = LinkPosition {
             own,
             place: generation.whole + number,
             number,

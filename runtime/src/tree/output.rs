@@ -1,15 +1,15 @@
-//! Where an evaluation writes.
+//! Destinations to which an evaluation writes accelerations.
 
 #![allow(unsafe_code)]
 
 use crate::simd::Simd;
 
-/// Where accelerations go.
+/// Destination of accelerations.
 pub(super) trait Output<T> {
-    /// Takes the accelerations of `count` links from the one with number `at` in the
-    /// tree on: as many as `V` has lanes, or the first of these.
+    /// Writes the accelerations of `count` links from index `at` of the tree on; `count` is at most
+    /// the number of lanes of `V`.
     ///
     /// # Safety
-    /// The links are within reach of the strips of the block that is being computed.
+    /// The links must belong to the strips of the block that is being computed.
     unsafe fn write<V: Simd<T>>(&mut self, at: usize, alpha: V, count: usize);
 }

@@ -1,4 +1,4 @@
-//! Generations that are taken apart into blocks.
+//! Partition of generations into blocks.
 
 use alloc::vec::Vec;
 
@@ -9,26 +9,28 @@ use super::generation::Generation;
 use super::strips::Strips;
 use crate::simd::WIDEST;
 
-/// How a tree is taken apart.
+/// Sizes that determine how a tree is divided into blocks.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Policy {
-    /// Trees of up to so many links are computed in one block, and so many links in
-    /// one.
+    /// Largest number of links of a tree that is computed as one block; also the largest number of
+    /// links of a block.
     pub(super) whole: usize,
-    /// So many links in a block if all of them have children: they take more numbers.
+    /// Largest number of links of a block without leaves. Links with children need more numbers
+    /// than leaves.
     pub(super) inner: usize,
-    /// Neighbours in the first generation of a block.
+    /// Number of neighbouring links in the first generation of a block.
     pub(super) width: usize,
-    /// Numbers in the widest register.
+    /// Number of lanes of the widest vector register.
     pub(super) widest: usize,
-    /// True if all above the blocks of leaves is one block, however large; of a tree of any
-    /// shape, if it is taken apart at all.
+    /// True if everything above the blocks that contain the leaves is one block of any size. For a
+    /// tree of any shape, true if the tree is divided at all.
     pub(super) once: bool,
 }
 
 impl Policy {
-    /// For one state: the numbers of a block fit into the second cache. The width is
-    /// whole vectors, and strips that are long enough to be fetched ahead.
+    /// Sizes for the evaluation of one state: the numbers of a block fit into the second-level
+    /// cache. The width is a multiple of all vector lengths, and strips are long enough for
+    /// prefetching.
     pub(super) const ONE_STATE: Self = Self {
         whole: 8192,
         inner: 4096,
@@ -37,8 +39,8 @@ impl Policy {
         once: false,
     };
 
-    /// For states in lanes: the numbers that are handed on in one subtree stay, with its
-    /// motion, in the first caches. A quarter or a half of it takes as long.
+    /// Sizes for many states in lanes: the numbers of one subtree and its motion stay in the
+    /// first-level cache. A quarter or half of this size is equally fast.
     pub(super) const STATES: Self = Self {
         whole: 127,
         inner: 127,
@@ -47,41 +49,42 @@ impl Policy {
         once: true,
     };
 
-    /// Number of blocks of so many links. The last one also takes links that would be
-    /// too few for a register.
+    /// Returns the number of blocks into which `links` neighbouring links of a generation are
+    /// divided. If too few links for a register remain, the last block takes them too.
     fn blocks(&self, links: usize) -> usize {
         links.saturating_sub(self.widest) / self.width + 1
     }
 }
 
-/// Of so many links, what is formed on the way up is kept for the way down: it fits
-/// into the third cache.
+/// Largest number of links for which the results of the upward pass are kept for the downward pass,
+/// because they fit into the third-level cache.
 const KEPT: usize = 1 << 18;
 
-/// Of so many links without leaves or more, threads share the blocks.
+/// Number of links, without leaves, from which on several threads share the blocks.
 const THREADED: usize = 1 << 14;
 
-/// Some consecutive generations, in blocks that start with neighbours of the first.
+/// Consecutive generations of a tree, divided into blocks. Each block starts with neighbouring
+/// links of the first of these generations.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Partition {
-    /// The first generation, and how many links it has.
+    /// Index of the partition's first generation, and the number of links of that generation.
     pub(super) first: usize,
     pub(super) count: usize,
-    /// How many links there are in all of these generations.
+    /// Number of links in all generations of the partition.
     links: usize,
-    /// How this was done.
+    /// Sizes by which the blocks were chosen.
     policy: Policy,
-    /// True if blocks keep what is formed on the way up.
+    /// True if blocks keep the results of the upward pass for the downward pass.
     pub(super) keeps: bool,
-    /// True if the last generation of the tree is among them. If not, the generations of
-    /// a block end with the generation behind.
+    /// True if the tree's last generation belongs to the partition. If not, the last generation of
+    /// each block is the first one of the next partition.
     pub(super) has_leaves: bool,
-    /// The generations of a block, and of the last one, which has another width.
+    /// Generations of a block, and of the last block, which may contain another number of links.
     block: Generations,
     last: Generations,
 }
 
-/// The generations of a block.
+/// Generations of a block, with their strips.
 #[derive(Clone, Debug, PartialEq)]
 struct Generations {
     generations: Vec<Generation>,
@@ -89,7 +92,8 @@ struct Generations {
 }
 
 impl Generations {
-    /// Of generations from the generation `first` on.
+    /// Creates the value from the generations of a block, which start with generation `first` of
+    /// the tree.
     fn new(generations: Vec<Generation>, first: usize, has_leaves: bool, widest: usize) -> Self {
         let inner = generations.len().saturating_sub(1);
         let strips = Strips::new(&generations, first, inner, has_leaves, widest);
@@ -101,8 +105,8 @@ impl Generations {
 }
 
 impl Partition {
-    /// From a generation on with `count` links, and `links` in all of them; of the
-    /// generations of so many neighbours.
+    /// Creates the partition. Its first generation has `count` links, all its generations together
+    /// have `links` links.
     pub(super) fn new(
         first: usize,
         [count, links]: [usize; 2],
@@ -124,7 +128,7 @@ impl Partition {
         }
     }
 
-    /// How many of so many threads are worth their while here.
+    /// Returns how many of the available threads to use for this partition.
     fn threads(&self, threads: usize) -> usize {
         match self.has_leaves || self.links >= THREADED {
             true => threads.max(1),
@@ -132,7 +136,8 @@ impl Partition {
         }
     }
 
-    /// The links of the first generation that each of so many threads computes.
+    /// Iterates over the threads, and returns for each the links of the first generation whose
+    /// blocks it computes.
     pub(super) fn jobs(&self, threads: usize) -> impl Iterator<Item = Range<usize>> {
         let (count, Policy { width, widest, .. }) = (self.count, self.policy);
         let share = count.div_ceil(width).div_ceil(self.threads(threads));
@@ -144,7 +149,7 @@ impl Partition {
         })
     }
 
-    /// The blocks of the subtrees of these links of the first generation.
+    /// Iterates over the blocks that start with the links `links` of the first generation.
     pub(super) fn windows(
         &self,
         links: &Range<usize>,
@@ -154,7 +159,7 @@ impl Partition {
         blocks.map(move |block| self.window(first + block * self.policy.width))
     }
 
-    /// The block that starts with a link.
+    /// Returns the block whose first link is link `start` of the first generation.
     pub(super) fn window(&self, start: usize) -> SubtreeBlock<'_> {
         let rest = self.count - start;
         let Policy { width, widest, .. } = self.policy;
@@ -180,7 +185,7 @@ impl Partition {
         }
     }
 
-    /// The largest block.
+    /// Returns the largest block.
     pub(super) fn largest(&self) -> SubtreeBlock<'_> {
         let (first, last) = (self.window(0), self.policy.blocks(self.count) - 1);
         let last = self.window(last * self.policy.width);

@@ -1,4 +1,4 @@
-//! How a tree is taken apart.
+//! Plan of an evaluation: the division of a tree into partitions and blocks.
 
 use alloc::vec::Vec;
 
@@ -8,32 +8,32 @@ use super::heights::Heights;
 use super::partition::{Partition, Policy};
 use super::strips::Strips;
 
-/// The generations of a tree, and how it is partition.
+/// Generations of a tree, and their division into partitions.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Plan {
-    /// Of the whole tree.
+    /// Generations of the whole tree.
     generations: Vec<Generation>,
-    /// Above the partitions.
+    /// Strips above the partitions.
     strips: Strips,
-    /// From the leaves up; none where the tree is one.
+    /// Partitions, from the leaves to the root; empty if the tree is one block.
     pub(super) partitions: Vec<Partition>,
     widest: usize,
-    /// Where the tree is of any shape: the number of the link in each place, and the
-    /// place of its parent.
+    /// For a tree of any shape: the index of the link at each position, and the position of its
+    /// parent.
     pub(super) order: Vec<u32>,
     pub(super) parents: Vec<u32>,
 }
 
 impl Plan {
-    /// For a tree with so many copies of each generation under each link of the
-    /// one before.
+    /// Creates the plan of a tree whose generation k has `copies[k]` copies under each link of the
+    /// generation before.
     pub(super) fn new(copies: &[usize], policy: Policy) -> Self {
         let (counts, starts, links) = numbers_of_links(copies);
         let mut partitions = Vec::new();
         let (mut end, mut above, mut fitting) = (copies.len(), links, policy.whole);
         while above > policy.whole {
             let has_leaves = end == copies.len();
-            // The longest subtrees that fit with their neighbours.
+            // The longest subtrees that fit into a block together with their neighbours.
             let inner = 1..end.saturating_sub(usize::from(has_leaves));
             let fits = |&generation: &usize| {
                 let count = counts[generation].max(1);
@@ -82,10 +82,10 @@ impl Plan {
         }
     }
 
-    /// For a tree of any shape, of the parents of all links, before which they stand.
-    /// Links of one height, the distance to the deepest leaf below, are a strip: their
-    /// children are in strips behind it, their parents in strips before it. For states in
-    /// lanes, those of one small subtree.
+    /// Creates the plan of a tree of any shape, from the parents of all links, which come before
+    /// their children. Links of one height (the distance to the deepest leaf below) form a strip;
+    /// their children are in later strips, their parents in earlier ones. For states in lanes, the
+    /// links of one height of a small subtree form a strip.
     pub(super) fn by_height(parents: &[u32], policy: Policy) -> Self {
         let mut heights = Heights::new(parents);
         if policy.once {
@@ -101,13 +101,13 @@ impl Plan {
         }
     }
 
-    /// Number of links.
+    /// Returns the number of links.
     pub(super) fn links(&self) -> usize {
         let last = self.generations.last();
         last.map_or(0, |last| last.whole + last.count)
     }
 
-    /// The generations above the partitions, or the whole tree.
+    /// Returns the generations above the partitions, or the whole tree, as a block.
     pub(super) fn top(&self) -> SubtreeBlock<'_> {
         let inner = inner(&self.generations, &self.partitions);
         let inner = inner.max(usize::from(!self.order.is_empty()));
@@ -124,7 +124,8 @@ impl Plan {
     }
 }
 
-/// The number of links in each generation, that before it, and that of all.
+/// Returns, for each generation, its number of links and the number of links before it; and the
+/// total number of links.
 fn numbers_of_links(copies: &[usize]) -> (Vec<usize>, Vec<usize>, usize) {
     let (mut counts, mut starts) = (Vec::new(), Vec::new());
     let (mut count, mut start) = (1, 0);
@@ -137,7 +138,7 @@ fn numbers_of_links(copies: &[usize]) -> (Vec<usize>, Vec<usize>, usize) {
     (counts, starts, start)
 }
 
-/// How many generations above the partitions have children.
+/// Returns the number of generations above the partitions that have children.
 fn inner(generations: &[Generation], partitions: &[Partition]) -> usize {
     let leaf = generations.len().saturating_sub(1);
     partitions.last().map_or(leaf, |partition| partition.first)
@@ -147,7 +148,7 @@ fn inner(generations: &[Generation], partitions: &[Partition]) -> usize {
 mod tests {
     use super::*;
 
-    /// Marks the links of a block.
+    /// Increases the counter in `found` for each link of a block.
     fn mark(block: SubtreeBlock<'_>, found: &mut [usize]) {
         for (_, whole, length) in block.spans() {
             for link in &mut found[whole..whole + length] {
@@ -160,8 +161,8 @@ mod tests {
         assert_eq!(links_in_one_part(copies), partitions);
     }
 
-    /// Checks that blocks have no link in common, as threads that write to one slice must not,
-    /// and returns where partitions start.
+    /// Checks that no two blocks have a link in common, because threads write to one slice. Returns
+    /// the first generations of the partitions.
     fn links_in_one_part(copies: &[usize]) -> Vec<usize> {
         let plan = Plan::new(copies, Policy::ONE_STATE);
         for threads in [1, 2, 3, usize::MAX] {

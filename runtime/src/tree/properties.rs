@@ -1,4 +1,4 @@
-//! Where the links of a tree in loops are.
+//! Positions, velocities and torques of points of links, for trees that are computed in loops.
 
 use alloc::vec;
 use alloc::vec::Vec;
@@ -11,28 +11,28 @@ use crate::scalar::Scalar;
 use crate::system::positions::COLUMNS;
 use crate::system::{LinkPoint, LinkProperties};
 
-/// The links of a tree in loops as data. Emitted models hold them where positions are
-/// asked for.
+/// Table of the properties of all links of a tree that is computed in loops. Emitted models contain
+/// it if positions are requested.
 ///
-/// All functions but [`of`](Self::of) take O(links), and allocate some numbers for each
-/// link. Points are those of [`PointEquations`], with the opposite y in trees that
+/// All functions except [`of`](Self::of) take O(links) operations and allocate some numbers for
+/// each link. Points are those of [`PointEquations`], with the opposite y in trees that
 /// [stand](Self::standing).
 #[derive(Clone, Debug, PartialEq)]
 pub struct PropertyTable<E, T> {
     shape: Shape,
-    /// Rows of all links or generations, one after the other.
+    /// Properties of all links, or of one link per generation, one row after the other.
     rows: Vec<T>,
-    /// 1, or −1 in trees that stand.
+    /// Sign of y in the results: 1, or −1 in trees that stand upright.
     up: T,
     equations: PhantomData<E>,
 }
 
-/// A link in the order from the root: its number, its parent, its properties.
+/// A link in the order from the root to the leaves: its index, its parent, its properties.
 type Visited<T> = (usize, Option<usize>, LinkProperties<T>);
 
 impl<E: PointEquations, T: Scalar> PropertyTable<E, T> {
-    /// Links with the constants of each or of each generation, one after the other, in
-    /// SI units, in the order of the fields of [`LinkProperties`].
+    /// Creates the table from the constants of each link or of each generation, one row after the
+    /// other, in SI units, in the order of the fields of [`LinkProperties`].
     #[must_use]
     pub fn new(shape: Shape, rows: Vec<T>) -> Self {
         Self {
@@ -43,15 +43,15 @@ impl<E: PointEquations, T: Scalar> PropertyTable<E, T> {
         }
     }
 
-    /// Returns the same links in a tree that stands, or hangs: angles are those from the
-    /// upward vertical, or from the downward one as at first.
+    /// Returns the same links in a tree that stands (angles from the upward vertical) or hangs
+    /// (angles from the downward vertical, the default).
     #[must_use]
     pub fn standing(self, stands: bool) -> Self {
         let up = T::from_f64(if stands { -1.0 } else { 1.0 });
         Self { up, ..self }
     }
 
-    /// Returns the same links on other scalars.
+    /// Returns the same links with constants of another scalar type.
     #[must_use]
     pub fn cast<S: Scalar>(&self, convert: impl Fn(T) -> S) -> PropertyTable<E, S> {
         PropertyTable {
@@ -62,14 +62,14 @@ impl<E: PointEquations, T: Scalar> PropertyTable<E, T> {
         }
     }
 
-    /// Returns a row, if there is one.
+    /// Returns the row of properties with this number, if it exists.
     #[inline(always)]
     fn row(&self, number: usize) -> Option<&[T; COLUMNS]> {
         let (rows, _) = self.rows.as_chunks();
         rows.get(number)
     }
 
-    /// Returns the properties of a link.
+    /// Returns the properties of a link; `None` if it does not exist.
     #[must_use]
     pub fn of(&self, link: usize) -> Option<LinkProperties<T>> {
         let (parent, row) = self.shape.link(link)?;
@@ -94,8 +94,8 @@ impl<E: PointEquations, T: Scalar> PropertyTable<E, T> {
         self.along_tree(point, [theta, omega], velocities, E::point_velocity);
     }
 
-    /// Sums, from the root to a point of each link, of what `step` says of a place on a
-    /// link.
+    /// Computes, for each link, the sum of `step` over the links on the path from the root to a
+    /// point of this link.
     fn along_tree(
         &self,
         point: LinkPoint,
@@ -119,7 +119,7 @@ impl<E: PointEquations, T: Scalar> PropertyTable<E, T> {
             if let Some(parent) = parent {
                 pivots[link] = from(pivots[parent], properties.pivot, parent);
             }
-            sums[link] = match properties.place(point) {
+            sums[link] = match properties.offset_from_pivot(point) {
                 Some(place) => from(pivots[link], place, link),
                 None => pivots[link],
             };
@@ -141,7 +141,7 @@ impl<E: PointEquations, T: Scalar> PropertyTable<E, T> {
         }
         torques.fill(T::from_f64(0.0));
         let directions = directions(theta);
-        // Forces on the subtree of each link.
+        // Sum of the forces on the subtree of each link.
         let mut sums = forces.to_vec();
         for (link, parent, properties) in self.visited().into_iter().rev() {
             let torque = |[along, across]: [T; 2], carrier: usize, [x, y]: [T; 2]| {
@@ -150,7 +150,7 @@ impl<E: PointEquations, T: Scalar> PropertyTable<E, T> {
                 let [torque] = E::point_torque(resting, [along, across, x, self.up * y]);
                 torque
             };
-            if let Some(place) = properties.place(point) {
+            if let Some(place) = properties.offset_from_pivot(point) {
                 torques[link] = torques[link] + torque(place, link, forces[link]);
             }
             if let Some(parent) = parent {
@@ -162,7 +162,7 @@ impl<E: PointEquations, T: Scalar> PropertyTable<E, T> {
         }
     }
 
-    /// The links from the root to the leaves.
+    /// Returns all links in an order in which parents come before children.
     fn visited(&self) -> Vec<Visited<T>> {
         let mut visited = Vec::with_capacity(self.shape.links());
         for strip in self.shape.strips() {
@@ -176,7 +176,7 @@ impl<E: PointEquations, T: Scalar> PropertyTable<E, T> {
 }
 
 impl Shape {
-    /// Returns the parent of a link but the root's, and the number of its row.
+    /// Returns the parent of a link (`None` for the root) and the index of its row of properties.
     fn link(&self, link: usize) -> Option<(Option<usize>, usize)> {
         let listed = |parents: &[u32]| {
             let &parent = parents.get(link)?;
@@ -186,8 +186,8 @@ impl Shape {
             Self::Parents(parents) => listed(parents),
             Self::Shared(parents) => listed(parents),
             Self::Generations(copies) => {
-                let (generation, number) = super::copies::place(copies, link)?;
-                // Links of the generation above, in front of this one.
+                let (generation, number) = super::copies::generation_and_index(copies, link)?;
+                // Number of links of the generation above, which come before this one.
                 let above: usize = copies.iter().take(generation).product();
                 let parent = || link - number - above + number % above;
                 Some(((generation > 0).then(parent), generation))
@@ -196,7 +196,7 @@ impl Shape {
     }
 }
 
-/// Sines and cosines of the angles.
+/// Returns the sine and cosine of each angle.
 fn directions<T: Scalar>(theta: &[T]) -> Vec<(T, T)> {
     theta.iter().map(|angle| angle.sin_cos()).collect()
 }

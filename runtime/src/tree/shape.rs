@@ -1,32 +1,32 @@
-//! Which link hangs on which, and how links are gone through.
+//! Topology of a tree, and iteration over its links.
 
 use alloc::sync::Arc;
 
-/// Parents of the links.
+/// Topology of a tree, given by the parents of its links or by its generations.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Shape {
-    /// The parent of each link, before it; the root's own is 0.
+    /// The index of each link's parent, which is smaller than the link's; 0 for the root.
     Parents(&'static [u32]),
-    /// Parents likewise, of a tree that is not known before the program runs.
+    /// The index of each link's parent, for a tree that is built at run time.
     Shared(Arc<[u32]>),
-    /// Copies of each generation under each link of the one before, 1 for the
-    /// root; links stand as in a [`Tree`](super::Tree).
+    /// Number of copies of each generation under each link of the generation before, 1 for the
+    /// root. Links are ordered as in a [`Tree`](super::Tree).
     Generations(&'static [usize]),
 }
 
-/// Links that stand side by side, as their parents do.
+/// Consecutive links whose parents are consecutive too.
 #[derive(Clone, Copy)]
 pub(super) struct Neighbours {
-    /// The first one, and its parent, but for the root.
+    /// Index of the first link, and of its parent (`None` for the root).
     pub(super) link: usize,
     pub(super) parent: Option<usize>,
     pub(super) count: usize,
-    /// Number of the row that they share.
+    /// Index of the row of constants that these links share.
     pub(super) row: usize,
 }
 
 impl Neighbours {
-    /// Each of them, and its parent.
+    /// Iterates over the links, each with its parent.
     #[inline(always)]
     pub(super) fn each(self) -> impl Iterator<Item = (usize, Option<usize>)> {
         let parent = move |index| self.parent.map(|parent| parent + index);
@@ -43,7 +43,7 @@ impl Shape {
         }
     }
 
-    /// Goes from the root to the leaves, strip by strip.
+    /// Iterates over the links from the root to the leaves, strip by strip (runs of neighbours).
     #[inline(always)]
     pub(super) fn strips(&self) -> StripWalk<'_> {
         StripWalk {
@@ -57,16 +57,16 @@ impl Shape {
     }
 }
 
-/// All links from the root to the leaves, neighbours at a time.
+/// Iterator over all links from the root to the leaves, several neighbours at a time.
 pub(super) struct StripWalk<'a> {
     shape: &'a Shape,
-    /// The next link, its generation, and which copy it is under its parent.
+    /// Index of the next link, its generation, and its number among the copies under its parent.
     link: usize,
     generation: usize,
     copy: usize,
-    /// Where the generation before starts, and how many links it has.
+    /// Index of the first link of the generation before, and its number of links.
     above: (usize, usize),
-    /// Where this one starts.
+    /// First link of this generation.
     start: usize,
 }
 

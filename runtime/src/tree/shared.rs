@@ -1,4 +1,4 @@
-//! A slice that several threads write to, each to elements of its own.
+//! A slice to which several threads write, each thread to different elements.
 
 #![allow(unsafe_code)]
 
@@ -9,7 +9,7 @@ use super::prefetch::prefetch;
 use crate::scalar::Scalar;
 use crate::simd::Simd;
 
-/// A mutable slice whose elements are written from several places.
+/// View of a mutable slice; copies of the view can be used to write to the same slice.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Shared<'a, T> {
     start: *mut T,
@@ -17,8 +17,8 @@ pub(super) struct Shared<'a, T> {
     slice: PhantomData<&'a mut [T]>,
 }
 
-// SAFETY: its functions' callers see to it that no element is written from one thread
-// while another one writes or reads it.
+// SAFETY: the callers of its functions ensure that no element is written by one thread while
+// another one writes or reads it.
 unsafe impl<T: Send> Send for Shared<'_, T> {}
 
 impl<'a, T: Copy> Shared<'a, T> {
@@ -30,7 +30,7 @@ impl<'a, T: Copy> Shared<'a, T> {
         }
     }
 
-    /// The numbers from `at` on.
+    /// Returns the part of the slice from index `at` on; `None` if `at` is past the end.
     #[inline(always)]
     pub(super) fn from(self, at: usize) -> Option<Self> {
         let length = self.length.checked_sub(at)?;
@@ -41,38 +41,36 @@ impl<'a, T: Copy> Shared<'a, T> {
         })
     }
 
-    /// `length` numbers from `at` on.
+    /// Returns the `length` numbers from index `at` on; `None` if there are fewer.
     pub(super) fn window(self, at: usize, length: usize) -> Option<Self> {
         let rest = self.from(at)?;
         (length <= rest.length).then_some(Self { length, ..rest })
     }
 
-    /// Asks the memory for the line of a number that will be written soon.
+    /// Prefetches the cache line of a number that will be written soon.
     #[inline(always)]
     pub(super) fn prefetch(self, at: usize) {
         prefetch(self.start.wrapping_add(at));
     }
 
-    /// Writes numbers from `at` on; none where they do not fit. Of two threads that
-    /// write at one time, each must write elsewhere: the blocks of a tree have no link
-    /// in common.
+    /// Writes numbers from index `at` on; writes nothing if they do not fit. Two threads that write
+    /// at the same time must write to different elements, which holds because the blocks of a tree
+    /// have no link in common.
     pub(super) fn write(self, at: usize, numbers: &[T]) {
         if at <= self.length && numbers.len() <= self.length - at {
-            // SAFETY: the elements lie in the slice, which is borrowed mutably for as
-            // long as this lives. No other thread writes there, and none reads before
-            // all are done.
+            // SAFETY: the elements lie in the slice, which is mutably borrowed while this view
+            // lives. No other thread writes to them, and none reads them before all have finished.
             let places =
                 unsafe { core::slice::from_raw_parts_mut(self.start.add(at), numbers.len()) };
             places.copy_from_slice(numbers);
         }
     }
 
-    /// Reads numbers from `at` on into `places`; none where there are not so many.
-    /// The numbers are the reader's own, or nobody writes at that time.
+    /// Reads numbers from index `at` on into `places`; reads nothing if there are too few. No other
+    /// thread may write these numbers at the same time.
     pub(super) fn read(self, at: usize, places: &mut [T]) {
         if at <= self.length && places.len() <= self.length - at {
-            // SAFETY: the elements lie in the slice, and no other thread writes them
-            // now.
+            // SAFETY: the elements lie in the slice, and no other thread writes them now.
             let numbers = unsafe { core::slice::from_raw_parts(self.start.add(at), places.len()) };
             places.copy_from_slice(numbers);
         }
@@ -83,7 +81,7 @@ impl<T: Scalar> Output<T> for Shared<'_, T> {
     #[inline(always)]
     unsafe fn write<V: Simd<T>>(&mut self, at: usize, alpha: V, count: usize) {
         let place = self.start.wrapping_add(at);
-        // SAFETY: the caller's: this is as long as the strips of the block reach.
+        // SAFETY: the caller guarantees that the slice reaches as far as the strips of the block.
         unsafe {
             match count < V::LANES {
                 true => alpha.write_some(place, count),

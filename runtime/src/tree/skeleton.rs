@@ -1,4 +1,4 @@
-//! The parts of a tree that do not depend on its equations.
+//! Parts of a tree that do not depend on its equations: topology, constants, order of computation.
 
 use alloc::vec::Vec;
 
@@ -10,29 +10,29 @@ use crate::scalar::Scalar;
 use crate::scalar::kind::compiled_once;
 use crate::simd::WIDEST;
 
-/// The shape of a tree, its constants, and how it is computed.
+/// Topology and constants of a tree, and the order in which it is computed.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Skeleton<T> {
-    /// For one state, and for states in lanes.
+    /// Plan for the evaluation of one state, and plan for many states in lanes.
     pub(super) plan: Plan,
     pub(super) states: Plan,
     pub(super) sizes: Sizes,
-    /// Rows of the generations, one after the other, or columns of the links in the
-    /// order of the plan.
+    /// Constants: one row per generation, or one column per constant with the links in the order of
+    /// the plan.
     pub(super) constants: Vec<T>,
-    /// Columns of the links in the order for states in lanes; none of generations, whose
-    /// rows serve both.
+    /// Columns of constants with the links in the order for many states in lanes; empty for a tree
+    /// by generations, whose rows serve both purposes.
     pub(super) of_states: Vec<T>,
-    /// Acceleration of the root's pivot.
+    /// Acceleration of the root's pivot relative to free fall.
     pub(super) root: [T; 2],
     threads: usize,
     pub(super) layout: EvaluationMemory,
-    /// How many numbers an evaluation of one state needs room for.
-    pub(super) room: usize,
+    /// Workspace length, in numbers, for the evaluation of one state.
+    pub(super) buffer: usize,
 }
 
 impl<T: Scalar> Skeleton<T> {
-    /// A tree with a row of constants a generation.
+    /// Creates a tree with one row of constants per generation.
     pub(super) fn by_generation(
         copies: &[usize],
         sizes: Sizes,
@@ -51,7 +51,7 @@ impl<T: Scalar> Skeleton<T> {
         )
     }
 
-    /// A tree with a row of constants a link, one after the other.
+    /// Creates a tree from one row of constants per link.
     pub(super) fn by_link(parents: &[u32], sizes: Sizes, rows: &[T], root: [T; 2]) -> Self {
         let plans =
             [Policy::ONE_STATE, Policy::STATES].map(|policy| Plan::by_height(parents, policy));
@@ -68,7 +68,7 @@ impl<T: Scalar> Skeleton<T> {
     ) -> Self {
         let layout = EvaluationMemory::new::<T>(&plan, sizes);
         Self {
-            room: layout.room::<T>(&plan, sizes, threads),
+            buffer: layout.workspace_len::<T>(&plan, sizes, threads),
             layout,
             plan,
             states,
@@ -86,10 +86,12 @@ impl<T: Scalar> Skeleton<T> {
 
     pub(super) fn set_threads(&mut self, threads: usize) {
         self.threads = threads;
-        self.room = self.layout.room::<T>(&self.plan, self.sizes, threads);
+        self.buffer = self
+            .layout
+            .workspace_len::<T>(&self.plan, self.sizes, threads);
     }
 
-    /// Returns this tree on other scalars.
+    /// Returns this tree with constants of another scalar type.
     pub(super) fn cast<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Skeleton<S> {
         let constants = [&self.constants, &self.of_states];
         Skeleton::new(
@@ -102,7 +104,7 @@ impl<T: Scalar> Skeleton<T> {
     }
 }
 
-/// Returns rows of constants of all links as columns in the order of a plan.
+/// Converts rows of constants of all links to columns, with the links in the order of a plan.
 fn columns<T: Scalar>(plan: &Plan, sizes: Sizes, rows: &[T]) -> Vec<T> {
     let length = odd_lines(line::<T>(), plan.links() + WIDEST);
     let mut columns = alloc::vec![T::from_f64(0.0); sizes.constants * length];
@@ -121,13 +123,13 @@ fn columns<T: Scalar>(plan: &Plan, sizes: Sizes, rows: &[T]) -> Vec<T> {
 }
 
 compiled_once! {
-    /// [`Skeleton::by_generation`].
+    /// Function pointer to [`Skeleton::by_generation`].
     pub(super) ByGeneration<T> = Skeleton::by_generation:
         fn(&[usize], Sizes, Vec<T>, [T; 2], usize) -> Skeleton<T>
 }
 
 compiled_once! {
-    /// [`Skeleton::by_link`].
+    /// Function pointer to [`Skeleton::by_link`].
     pub(super) ByLink<T> = Skeleton::by_link:
         fn(&[u32], Sizes, &[T], [T; 2]) -> Skeleton<T>
 }

@@ -1,5 +1,5 @@
-//! Trees of some links, link by link: strips as short as theirs cost more to take through
-//! registers than they save.
+//! Trees of few links, computed link by link, because their strips are so short that vector
+//! registers would cost more time than they save.
 
 #![allow(unsafe_code)]
 
@@ -16,63 +16,63 @@ use crate::simd::{Kernel, Simd};
 use crate::system::Workspace;
 use crate::system::pendulum::put;
 
-/// A tree of any shape and of some links, its equations `E` taken through it one link after
-/// the other. Faster than a [`Tree`](super::Tree) for one state of few links.
+/// A tree of any shape with few links, whose equations `E` are evaluated one link after the other.
+/// For a single state this is faster than a [`Tree`](super::Tree).
 ///
-/// Evaluations fuse products with sums where the machine can, as those of a
-/// [`Tree`](super::Tree) do; they add up in another order.
+/// Like a [`Tree`](super::Tree), it uses fused multiply–add if the machine has it, but it adds in
+/// another order.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SmallTree<E, T> {
-    /// Each stands behind its parent.
+    /// Links, each after its parent.
     links: Vec<SmallLink>,
-    /// Rows of all links, one after the other.
+    /// Constants of all links, one row after the other.
     rows: Vec<T>,
-    /// Acceleration of the root's pivot against gravity.
+    /// Acceleration of the root's pivot relative to free fall.
     root: [T; 2],
-    /// How many numbers an evaluation needs room for.
-    room: usize,
+    /// Workspace length of an evaluation, in numbers.
+    buffer: usize,
     equations: PhantomData<E>,
 }
 
-/// A link's place in a small tree.
+/// Topology of a link in a small tree.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct SmallLink {
-    /// Number of the parent; of the root 0.
+    /// Index of the link's parent; 0 for the root.
     parent: usize,
-    /// Others hang from it.
+    /// True if the link has children.
     carries: bool,
-    /// No sibling stands behind it.
+    /// True if this link is the last of its siblings.
     is_last: bool,
 }
 
-/// State of an evaluation: angles, angular velocities, and torques from outside where
-/// there are any.
+/// State of a tree for an evaluation: angles, angular velocities and, if there are any, external
+/// torques.
 #[derive(Clone, Copy, Debug)]
 pub struct LinkStates<'a, T> {
-    /// Angles, rad.
+    /// Angles, in rad.
     pub theta: &'a [T],
-    /// Angular velocities, rad/s.
+    /// Angular velocities, in rad/s.
     pub omega: &'a [T],
-    /// Torques from outside, N m.
+    /// Outside torques, in N m.
     pub torques: Option<&'a [T]>,
 }
 
-/// Angles whose sines are formed at once.
+/// Number of angles whose sines are computed at once.
 const STEP: usize = 4;
 
 impl<E: LinkEquations, T: Scalar> SmallTree<E, T> {
-    /// A tree with the parent of each link, which stands before it (the root's own is 0),
-    /// a row of constants for each, and the acceleration of the root's pivot against
-    /// gravity, in the unit of the equations.
+    /// Creates a tree from the parent of each link (before the link; 0 for the root), a row of
+    /// constants for each link, and the acceleration of the root's pivot relative to free fall, in
+    /// the units of the equations.
     ///
     /// # Panics
-    /// Of more links than memory has room for, as a vector of so many numbers does.
+    /// If the tree has more links than fit into memory.
     #[must_use]
     pub fn new(parents: &[u32], mut rows: Vec<T>, root: [T; 2]) -> Self {
         let mut carries = alloc::vec![false; parents.len()];
         let mut links = Vec::with_capacity(parents.len());
         for (link, &parent) in parents.iter().enumerate().rev() {
-            // One that stands elsewhere would be no parent.
+            // A parent must come before its child.
             let parent = (parent as usize).min(link.saturating_sub(1));
             let has = |link: usize| carries.get(link).copied().unwrap_or_default();
             links.push(SmallLink {
@@ -84,32 +84,32 @@ impl<E: LinkEquations, T: Scalar> SmallTree<E, T> {
         }
         links.reverse();
         let numbers = |of_link| links.len().saturating_mul(of_link);
-        let room = numbers(Self::ROOM);
+        let buffer = numbers(Self::WORKSPACE_LEN);
         rows.resize(numbers(Self::CONSTANTS), T::from_f64(0.0));
         Self {
             links,
             rows,
             root,
-            room,
+            buffer,
             equations: PhantomData,
         }
     }
 
-    /// Returns the same tree on other scalars.
+    /// Returns the same tree with constants of another scalar type.
     #[must_use]
     pub fn cast<S: Scalar>(&self, convert: impl Fn(T) -> S) -> SmallTree<E, S> {
         SmallTree {
             links: self.links.clone(),
             rows: self.rows.iter().map(|&x| convert(x)).collect(),
             root: self.root.map(&convert),
-            room: self.room,
+            buffer: self.buffer,
             equations: PhantomData,
         }
     }
 
-    /// Writes the angular accelerations at one time of a drive: NaN for slices of another
-    /// length than there are links, and under torques where the equations read none.
-    // With its caller, so that what is given goes through memory once.
+    /// Writes the angular accelerations at one time of a drive. NaN if a slice does not have one
+    /// number per link, or if torques are given but the equations use none.
+    // Inlined into its caller, so that the input goes through memory once.
     #[inline(always)]
     pub fn accelerations_with(
         &self,
@@ -130,44 +130,51 @@ impl<E: LinkEquations, T: Scalar> SmallTree<E, T> {
             alpha.fill(T::from_f64(f64::NAN));
             return;
         }
-        in_fused_numbers(OneState {
+        in_fused_numbers(SmallTreeState {
             tree: self,
             drive: &drive,
             states,
-            room: workspace.numbers(self.room),
+            buffer: workspace.numbers(self.buffer),
             alpha,
         });
     }
 
     const CONSTANTS: usize = <E::Constants<T> as Row<T>>::LENGTH;
 
-    /// Sums of responses, in whose place a link's numbers for its children stand later.
+    /// Offset, within a link's numbers, of the sums of its children's responses; later the numbers
+    /// that it passes to its children are stored there.
     const SHARED: usize = {
         let sums = <E::Sums<T> as Row<T>>::LENGTH;
         let carried = <E::Carried<T> as Row<T>>::LENGTH;
         if sums > carried { sums } else { carried }
     };
 
-    /// Place of the sine and the cosine: behind these and the elimination.
+    /// Offset, within a link's numbers, of the sine and cosine, which follow the sums and the
+    /// elimination.
     const SINE: usize = Self::SHARED + <E::Elimination<T> as Row<T>>::LENGTH;
 
-    /// Numbers of a link.
-    const ROOM: usize = Self::SINE + 2;
+    /// Number of values per link in the workspace.
+    const WORKSPACE_LEN: usize = Self::SINE + 2;
 
-    /// All of them.
-    const SIZES: [usize; 4] = [Self::CONSTANTS, Self::SHARED, Self::SINE, Self::ROOM];
+    /// Number of constants per link, and the offsets and size of a link's numbers in the workspace.
+    const SIZES: [usize; 4] = [
+        Self::CONSTANTS,
+        Self::SHARED,
+        Self::SINE,
+        Self::WORKSPACE_LEN,
+    ];
 }
 
-/// One evaluation, whose slices fit the tree.
-struct OneState<'a, E, T> {
+/// Evaluation of one state, with slices whose lengths have been checked.
+struct SmallTreeState<'a, E, T> {
     tree: &'a SmallTree<E, T>,
     drive: &'a Option<RootDrive<T>>,
     states: LinkStates<'a, T>,
-    room: &'a mut [T],
+    buffer: &'a mut [T],
     alpha: &'a mut [T],
 }
 
-impl<E: LinkEquations, T: Scalar> Kernel<T> for OneState<'_, E, T> {
+impl<E: LinkEquations, T: Scalar> Kernel<T> for SmallTreeState<'_, E, T> {
     type Output = ();
 
     #[inline(always)]
@@ -183,10 +190,10 @@ impl<E: LinkEquations, T: Scalar> Kernel<T> for OneState<'_, E, T> {
         }
         let (tree, states) = (self.tree, self.states);
         let none = [T::from_f64(0.0)];
-        // Nobody writes to what is given.
+        // The input is only read.
         let column = |numbers: &[T]| Cells::rows(numbers.as_ptr().cast_mut(), 1);
-        let width = SmallTree::<E, T>::ROOM;
-        let room = self.room.as_mut_ptr();
+        let width = SmallTree::<E, T>::WORKSPACE_LEN;
+        let buffer = self.buffer.as_mut_ptr();
         let links = LinkByLink::<E, T> {
             links: &tree.links,
             drive: self.drive,
@@ -197,15 +204,15 @@ impl<E: LinkEquations, T: Scalar> Kernel<T> for OneState<'_, E, T> {
                 Some(torques) => column(torques),
                 None => Cells::rows(none.as_ptr().cast_mut(), 0),
             },
-            shared: Cells::rows(room, width),
-            elimination: Cells::rows(room.wrapping_add(SmallTree::<E, T>::SHARED), width),
-            sincos: Cells::rows(room.wrapping_add(SmallTree::<E, T>::SINE), width),
+            shared: Cells::rows(buffer, width),
+            elimination: Cells::rows(buffer.wrapping_add(SmallTree::<E, T>::SHARED), width),
+            sincos: Cells::rows(buffer.wrapping_add(SmallTree::<E, T>::SINE), width),
             alpha: Cells::rows(self.alpha.as_mut_ptr(), 1),
             equations: PhantomData,
         };
-        let above = RootDrive::above(tree.root, *self.drive).map(V::splat);
-        // SAFETY: the tree has a row for each link, the slices fit it, and in the room there
-        // are `width` numbers for each.
+        let above = RootDrive::apparent_gravity(tree.root, *self.drive).map(V::splat);
+        // SAFETY: the tree has a row for each link, the slices fit it, and the workspace has
+        // `width` numbers for each link.
         unsafe {
             links.sines::<V>(states.theta);
             links.up::<V>();
@@ -214,8 +221,8 @@ impl<E: LinkEquations, T: Scalar> Kernel<T> for OneState<'_, E, T> {
     }
 }
 
-/// The ways through a tree, with places that were checked: asking for each would be as much
-/// as the mechanics.
+/// Passes through the tree, with indices that were checked beforehand: checking each access would
+/// cost as much as the mechanics.
 struct LinkByLink<'a, E, T> {
     links: &'a [SmallLink],
     drive: &'a Option<RootDrive<T>>,
@@ -230,13 +237,13 @@ struct LinkByLink<'a, E, T> {
     equations: PhantomData<E>,
 }
 
-// Of all functions: each column of cells has the numbers of all links, as its name says, and
-// nothing else refers to them now. The number of a parent is that of a link.
+// Holds for all functions: each column of cells has the numbers of all links, as its name says, and
+// no other reference to them exists now. The index of a parent is that of a link.
 impl<E: LinkEquations, T: Scalar> LinkByLink<'_, E, T> {
-    /// Forms the sines and cosines. The last angles may be those before once more.
+    /// Computes the sines and cosines of all angles. The last register may repeat angles of the one
+    /// before.
     ///
-    /// # Safety
-    /// The cells are those of the tree, whose angles these are.
+    /// # Safety The workspace must be that of the tree to which the angles belong.
     #[inline(always)]
     unsafe fn sines<V: Simd<T>>(&self, theta: &[T]) {
         let last = theta.len().saturating_sub(1);
@@ -259,24 +266,25 @@ impl<E: LinkEquations, T: Scalar> LinkByLink<'_, E, T> {
             let (sines, cosines) = V::sin_cos_each(&angles);
             for i in 0..STEP {
                 let link = (first + i).min(last);
-                // SAFETY: there is a link, or the loop would not be entered, and `link` is at
-                // most the last one.
+                // SAFETY: the loop is only entered if there is a link, and `link` is at most the
+                // last one.
                 unsafe { self.sincos.write(link, &[sines[i], cosines[i]]) };
             }
             start += STEP;
         }
     }
 
-    /// From the last link to the root: responses, added to the sums of the parents.
+    /// Upward pass, from the last link to the root: computes responses and adds them to the sums of
+    /// the parents.
     ///
     /// # Safety
-    /// The cells are those of the tree; sines and cosines have been formed.
+    /// The cells must belong to the tree, with sines and cosines computed.
     #[inline(always)]
     unsafe fn up<V: Simd<T>>(&self) {
         for (link, &place) in self.links.iter().enumerate().rev() {
             let parent = place.parent;
-            // SAFETY: `link` counts the links, and the parent of each is one: each has places
-            // for sums, and for an elimination that no other shares.
+            // SAFETY: `link` runs over the links, and each parent is a link. Each link has memory
+            // for sums and an elimination that it shares with no other.
             unsafe {
                 let constants = self.constants::<V>(link);
                 let motion = self.motion(link, parent);
@@ -300,17 +308,17 @@ impl<E: LinkEquations, T: Scalar> LinkByLink<'_, E, T> {
         }
     }
 
-    /// From the root to the last link: accelerations, and what parents hand to children.
+    /// Downward pass, from the root to the last link: computes accelerations and the numbers that
+    /// parents pass to children.
     ///
     /// # Safety
-    /// The cells are those of the tree, and responses have been formed.
+    /// The cells must belong to the tree, with responses computed.
     #[inline(always)]
     unsafe fn down<V: Simd<T>>(&self, above: [V; 2]) {
         for (link, &place) in self.links.iter().enumerate() {
             let parent = place.parent;
-            // SAFETY: as on the way up. What a parent hands down stands in the places of its
-            // sums, which are as many as the longer of the two takes; there is an acceleration
-            // for each link.
+            // SAFETY: as in the upward pass. The numbers that a parent passes down take the place
+            // of its sums, which is large enough for both; each link has an acceleration.
             unsafe {
                 let constants = self.constants::<V>(link);
                 let motion = self.motion(link, parent);
@@ -332,11 +340,13 @@ impl<E: LinkEquations, T: Scalar> LinkByLink<'_, E, T> {
         }
     }
 
+    /// Returns the constants of link number `link`.
+    ///
     /// # Safety
-    /// It is a link of the tree.
+    /// `link` must be a link of the tree.
     #[inline(always)]
     unsafe fn constants<V: Simd<T>>(&self, link: usize) -> E::Constants<V> {
-        // SAFETY: the tree has so many constants for each link.
+        // SAFETY: the tree has this many constants for each link.
         let mut row: E::Constants<V> = unsafe { self.constants.read(link) };
         if E::TORQUE
             && link == 0
@@ -347,27 +357,29 @@ impl<E: LinkEquations, T: Scalar> LinkByLink<'_, E, T> {
         row
     }
 
-    /// The motion of a link, where what acts in its joint and from outside is left open.
+    /// Returns the motion of a link; joint motion and external torque are unspecified.
     ///
     /// # Safety
-    /// It is a link of the tree.
+    /// `link` must be a link of the tree.
     #[inline(always)]
     unsafe fn direction<V: Simd<T>>(&self, link: usize) -> LinkMotion<V> {
-        // SAFETY: each link has a sine and a cosine in its room, and an angular velocity.
+        // SAFETY: each link has a sine and a cosine in its workspace, and an angular velocity.
         let ([sine, cosine], [omega]): ([V; 2], [V; 1]) =
             unsafe { (self.sincos.read(link), self.omega.read(link)) };
         LinkMotion {
-            held: V::from_f64(0.0),
+            prescribed: V::from_f64(0.0),
             ..LinkMotion::turning(sine, cosine, omega)
         }
     }
 
+    /// Returns the motion of a link, including its joint motion and external torque.
+    ///
     /// # Safety
-    /// Both are links of the tree.
+    /// Both must be links of the tree.
     #[inline(always)]
     unsafe fn motion<V: Simd<T>>(&self, link: usize, parent: usize) -> LinkMotion<V> {
-        // SAFETY: both are links, of which angles and velocities are given. Torques are given for
-        // all links, or are one zero, which is read for each.
+        // SAFETY: both are links, whose angles and velocities exist. Torques exist for all links,
+        // or are a single zero that is read for each.
         unsafe {
             let mut motion: LinkMotion<V> = self.direction(link);
             [motion.outside_torque] = self.torque.read(link);

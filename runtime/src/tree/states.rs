@@ -1,13 +1,14 @@
-//! Many states of one tree, each in a lane.
+//! Many states of one tree, one in each lane.
 //!
-//! The numbers of the sweep are registers then, each link by itself. One subtree goes
-//! up after the other, each so small that what is handed on in it stays in the first
-//! cache, then what is above them up and down, then the subtrees down, the last one
-//! first. In trees of any shape, links above subtrees go up between them.
+//! Each number of a link is a register with one state per lane, and links are computed one by one.
+//! The upward pass is made subtree by subtree; each is so small that its numbers stay in the
+//! first-level cache. Then both passes are made through the links above the subtrees, and then the
+//! downward pass through the subtrees, the last one first. In trees that are not described by
+//! generations, links above subtrees are computed between the subtrees.
 //!
-//! # Which bits
-//! The equations are those of one state, and so is the order of each sum: a state
-//! has the bits that it has alone.
+//! # Bits
+//! Equations and the order of all sums are the same as for one state, so that the results have the
+//! same bits.
 
 use core::marker::PhantomData;
 
@@ -15,7 +16,7 @@ use super::block::SubtreeBlock;
 use super::copies::links;
 use super::equations::LinkEquations;
 use super::generation::Generation;
-use super::memory::{Room, Sizes, take};
+use super::memory::{BlockMemory, Sizes, take};
 use super::output::Output;
 use super::partition::Policy;
 use super::root::RootDrive;
@@ -24,9 +25,9 @@ use super::sweep::{Passes, Sweep};
 use crate::scalar::Scalar;
 use crate::simd::Simd;
 
-/// Where accelerations go: to a function of the link and its acceleration. Blocks
-/// start with some link; links of any shape have an order.
-struct Told<'a, E, F> {
+/// Destination of accelerations: a function of the link and its acceleration. It is given the
+/// block's first link and, for trees of any shape, the order of the links.
+struct AccelerationSink<'a, E, F> {
     alpha: &'a mut F,
     start: usize,
     order: &'a [u32],
@@ -34,14 +35,14 @@ struct Told<'a, E, F> {
 }
 
 #[allow(unsafe_code)]
-impl<E: LinkEquations, V: Scalar, F: FnMut(usize, V)> Output<V> for Told<'_, E, F> {
+impl<E: LinkEquations, V: Scalar, F: FnMut(usize, V)> Output<V> for AccelerationSink<'_, E, F> {
     #[inline(always)]
     unsafe fn write<W: Simd<V>>(&mut self, at: usize, alpha: W, _count: usize) {
         (self.alpha)(link::<E>(self.order, self.start + at), alpha.first());
     }
 }
 
-/// The number of the link in a place.
+/// Returns the index of the link at position `place` of the order.
 #[inline(always)]
 fn link<E: LinkEquations>(order: &[u32], place: usize) -> usize {
     match E::COPIES.is_empty() {
@@ -50,32 +51,34 @@ fn link<E: LinkEquations>(order: &[u32], place: usize) -> usize {
     }
 }
 
-/// Returns how many values an evaluation needs room for.
-pub(super) fn room<T: Scalar>(tree: &Skeleton<T>) -> usize {
-    let top = Room::new(&tree.states.top(), tree.sizes, 1);
-    let mut room = top.lasting() + top.passing();
+/// Returns the length of an evaluation's workspace, in values of type `V`.
+pub(super) fn workspace_len<T: Scalar>(tree: &Skeleton<T>) -> usize {
+    let top = BlockMemory::new(&tree.states.top(), tree.sizes, 1);
+    let mut buffer = top.lasting() + top.passing();
     if let Some(partition) = tree.states.partitions.first() {
-        let block = Room::new(&partition.largest(), tree.sizes, 1);
-        room += block.passing() + partition.count * block.lasting();
+        let block = BlockMemory::new(&partition.largest(), tree.sizes, 1);
+        buffer += block.passing() + partition.count * block.lasting();
     }
-    room
+    buffer
 }
 
-/// What acts on states beside what comes from outside link by link.
+/// Actions on the states in addition to the external input of each link: the drive, and torques
+/// between links.
 pub(super) struct ActingOnStates<'a, V> {
     pub(super) drive: Option<RootDrive<V>>,
-    /// The torques on all links, if some act between them and are not among those from outside.
+    /// Torques between links, unless they are included in the external torques; otherwise empty.
     pub(super) torques: &'a [V],
 }
 
-/// Hands over the accelerations of all links, in any order, of states in the lanes of `V`;
-/// of none where the room is too small. What comes from `outside` to a link is its torque
-/// or given acceleration, and 1 where it is held.
+/// Computes the accelerations of several states, one in each lane of `V`, and passes those of all
+/// links, in any order, to a sink; passes nothing if the workspace is too small. `outside` returns,
+/// for each link, its external torque or prescribed acceleration, and 1 if it is prescribed,
+/// else 0.
 #[inline(always)]
 pub(super) fn accelerations<E: LinkEquations, T: Scalar, V: Simd<T>>(
     tree: &Skeleton<T>,
     ActingOnStates { drive, torques }: ActingOnStates<'_, V>,
-    mut room: &mut [V],
+    mut buffer: &mut [V],
     theta: impl Fn(usize) -> V,
     omega: impl Fn(usize) -> V,
     outside: impl Fn(usize) -> [V; 2],
@@ -84,14 +87,14 @@ pub(super) fn accelerations<E: LinkEquations, T: Scalar, V: Simd<T>>(
     let plan = &tree.states;
     let sizes = const { Sizes::of::<E, V>() };
     let by_link = const { E::COPIES.is_empty() };
-    let top_room = Room::new(&plan.top(), sizes, 1);
-    let top_lasting = take(&mut room, top_room.lasting());
-    let top_passing = take(&mut room, top_room.passing());
+    let top_memory = BlockMemory::new(&plan.top(), sizes, 1);
+    let top_lasting = take(&mut buffer, top_memory.lasting());
+    let top_passing = take(&mut buffer, top_memory.passing());
     let above = plan.top().generations.last();
     let slot = above.map_or(0, |generation| generation.slot);
 
-    // Where the equations say it, what a tree is without is not compiled: order and
-    // parents if it has generations, blocks if these are small.
+    // Parts that the equations exclude are not compiled: order and parents for trees by
+    // generations, blocks for small trees.
     let (order, parents) = match by_link {
         true => (&*plan.order, &*plan.parents),
         false => (&[][..], &[][..]),
@@ -100,10 +103,10 @@ pub(super) fn accelerations<E: LinkEquations, T: Scalar, V: Simd<T>>(
         true => plan.partitions.first(),
         false => None,
     };
-    let partition = partition.map(|all| (all, Room::new(&all.largest(), sizes, 1)));
+    let partition = partition.map(|all| (all, BlockMemory::new(&all.largest(), sizes, 1)));
     let blocks = partition.as_ref().map_or(0, |(all, _)| all.count);
-    let passing = partition.as_ref().map_or(0, |(_, room)| room.passing());
-    let passing = take(&mut room, passing);
+    let passing = partition.as_ref().map_or(0, |(_, buffer)| buffer.passing());
+    let passing = take(&mut buffer, passing);
     let motions = StateMotions {
         theta,
         omega,
@@ -112,17 +115,17 @@ pub(super) fn accelerations<E: LinkEquations, T: Scalar, V: Simd<T>>(
         order,
         parents,
     };
-    // Blocks up, the top up and down, blocks down: one body for all, which is compiled
-    // with every set of equations for every register.
+    // Blocks upwards, the top in both directions, blocks downwards: one loop body, because it is
+    // compiled with every set of equations for every register.
     for step in 0..=2 * blocks {
         let [rises, falls] = [step <= blocks, step >= blocks];
         let index = step.min(2 * blocks - step);
         let memory = [&mut *top_lasting, &mut *top_passing];
-        let mut top = sweep(sizes, tree, plan.top(), &top_room, memory);
+        let mut top = sweep(sizes, tree, plan.top(), &top_memory, memory);
         let (mut own, mut top) = match &partition {
             Some((partition, own)) if index < blocks => {
                 let start = index * own.lasting();
-                let Some(lasting) = room.get_mut(start..start + own.lasting()) else {
+                let Some(lasting) = buffer.get_mut(start..start + own.lasting()) else {
                     return;
                 };
                 let block = partition.window(index);
@@ -132,7 +135,7 @@ pub(super) fn accelerations<E: LinkEquations, T: Scalar, V: Simd<T>>(
             _ => {
                 top.torque = drive.map(|drive| drive.torque);
                 let root = tree.root.map(V::splat);
-                top.root = Some(RootDrive::above(root, drive));
+                top.root = Some(RootDrive::apparent_gravity(root, drive));
                 (top, None)
             }
         };
@@ -140,7 +143,7 @@ pub(super) fn accelerations<E: LinkEquations, T: Scalar, V: Simd<T>>(
             motions.prepare::<E, T>(&mut own);
         }
         if let (Some(top), true) = (&mut top, falls) {
-            hand_over(top, slot + index, &mut own, 0, 2);
+            copy_response(top, slot + index, &mut own, 0, 2);
         }
         let start = own.block.start;
         if let Some(view) = own.view() {
@@ -150,7 +153,7 @@ pub(super) fn accelerations<E: LinkEquations, T: Scalar, V: Simd<T>>(
             }
             if falls {
                 let alpha = &mut alpha;
-                passes.down(&mut Told {
+                passes.down(&mut AccelerationSink {
                     alpha,
                     start,
                     order,
@@ -160,7 +163,7 @@ pub(super) fn accelerations<E: LinkEquations, T: Scalar, V: Simd<T>>(
         }
         if let (Some(top), true) = (&mut top, rises) {
             let count = sizes.responses;
-            hand_over(&mut own, 0, top, slot + index, count);
+            copy_response(&mut own, 0, top, slot + index, count);
         }
     }
 }
@@ -170,27 +173,27 @@ fn sweep<'a, T: Scalar, V: Simd<T>>(
     sizes: Sizes,
     tree: &'a Skeleton<T>,
     block: SubtreeBlock<'a>,
-    room: &Room,
+    buffer: &BlockMemory,
     [lasting, passing]: [&'a mut [V]; 2],
 ) -> Sweep<'a, T, V> {
     Sweep {
         block,
-        // Where constants are a row a generation, for one state as for many.
+        // Rows of generations serve one state and many.
         constants: match tree.of_states.is_empty() {
             true => &tree.constants,
             false => &tree.of_states,
         },
         omega: &[],
-        storage: room.storage(sizes, lasting, passing, V::LANES > 1),
+        storage: buffer.storage(sizes, lasting, passing, V::LANES > 1),
         root: None,
         torque: None,
     }
 }
 
-/// Copies the first responses of a link of one block, or the acceleration of its pivot,
-/// to a link of another.
+/// Copies the response of a link of one block, or the acceleration of its pivot, to a link of
+/// another block.
 #[inline(always)]
-fn hand_over<T: Scalar, V: Simd<T>>(
+fn copy_response<T: Scalar, V: Simd<T>>(
     from: &mut Sweep<'_, T, V>,
     own: usize,
     to: &mut Sweep<'_, T, V>,
@@ -214,30 +217,30 @@ fn hand_over<T: Scalar, V: Simd<T>>(
     }
 }
 
-/// Registers of sines that are formed in step: while the result of one operation is
-/// awaited, the others keep the processor busy.
+/// Number of registers whose sines are computed in lockstep: while one waits for a result, the
+/// others keep the processor busy.
 const STEP: usize = 2;
 
-/// The motions of all links in many states, and what acts on them.
+/// Angles, velocities and external inputs of all links in several states.
 struct StateMotions<'a, V, A, R, O> {
     theta: A,
     omega: R,
     outside: O,
     torques: &'a [V],
-    /// Of links of any shape.
+    /// Order of the links, for a tree of any shape.
     order: &'a [u32],
     parents: &'a [u32],
 }
 
-// No closures around what must be inlined: they are not, always.
+// No closures around functions that must be inlined, because closures prevent it at times.
 impl<V, A, R, O> StateMotions<'_, V, A, R, O>
 where
     A: Fn(usize) -> V,
     R: Fn(usize) -> V,
     O: Fn(usize) -> [V; 2],
 {
-    /// Forms the motions of a block, and goes up through links of any shape with them, subtree
-    /// by subtree.
+    /// Computes sines, cosines and joint motions of a block. For trees of any shape it also makes
+    /// the upward pass, subtree by subtree.
     #[inline(always)]
     fn prepare<E: LinkEquations, T: Scalar>(&self, sweep: &mut Sweep<'_, T, V>)
     where
@@ -258,7 +261,7 @@ where
         }
     }
 
-    /// Forms the motions of a block's links.
+    /// Computes sines, cosines and joint motions of a block's links.
     #[inline(always)]
     fn form<E: LinkEquations, T: Scalar>(&self, sweep: &Sweep<'_, T, V>, generations: &[Generation])
     where
@@ -270,7 +273,7 @@ where
             let (above, count) = generation.above.unwrap_or_default();
             let mut index = 0;
             while index < generation.length {
-                // The last one may come alone, and is formed twice then.
+                // A last register without a partner is computed twice.
                 let both = [index, (index + 1).min(generation.length - 1)];
                 let [one, other] = both;
                 let places = [
@@ -291,15 +294,15 @@ where
                         let _ = velocities.store::<V, 1>(own, &[rate]);
                     }
                     if storage.sizes.forced {
-                        let [mut torque, held] = (self.outside)(links[i]);
+                        let [mut torque, prescribed] = (self.outside)(links[i]);
                         if E::COUPLED
                             && let Some(&own) = self.torques.get(links[i])
                         {
                             torque = own;
                         }
                         let _ = storage.torques.store::<V, 1>(own, &[torque]);
-                        if storage.sizes.held {
-                            let _ = storage.held.store::<V, 1>(own, &[held]);
+                        if storage.sizes.prescribed {
+                            let _ = storage.prescribed.store::<V, 1>(own, &[prescribed]);
                         }
                     }
                     if !storage.sizes.joints {

@@ -1,4 +1,4 @@
-//! Which neighbours are computed together, and where their numbers stand.
+//! Strips: neighbouring links that are computed together, and the positions of their numbers.
 
 use alloc::vec::Vec;
 use core::ops::Range;
@@ -7,37 +7,35 @@ use super::generation::{Generation, Position};
 use super::heights::Heights;
 use super::heights::SmallSubtrees;
 
-/// Neighbours of one generation, and their children.
+/// Strip: neighbouring links of one generation, and their children.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Strip {
-    /// Their generation.
+    /// Index of their generation.
     pub(super) generation: usize,
-    /// How many they are.
+    /// Number of links.
     pub(super) length: usize,
-    /// Where the first one stands.
+    /// Position of the first link.
     pub(super) first: Position,
-    /// Where the first copy of its children stands, how many copies there are, and
-    /// how far it is from one to the next ...
+    /// Position of the first child of the first link; meaningless if there are no children.
     pub(super) child: Position,
     pub(super) copies: usize,
-    /// ... in the block's own arrays, and in arrays of the whole tree.
+    /// Distance between two copies of the children in the block's own arrays.
     pub(super) apart: usize,
     pub(super) whole_apart: usize,
-    /// From one link to the next in arrays of the whole tree.
+    /// Distance between neighbouring links in the arrays of the whole tree.
     pub(super) step: usize,
     /// True if the children are leaves.
     pub(super) leaves: bool,
-    /// A register with at least so many lanes holds all children, one by one behind
-    /// each other, and the next strip is theirs.
+    /// Smallest number of lanes of a register that holds all children of the strip, if these form
+    /// the next strip.
     pub(super) lanes: usize,
-    /// Where children are found by attachments, those of these links to their
-    /// parents: from one number to another. There, `copies` is 0 for links without
-    /// children, and 1 otherwise.
+    /// Range of the attachments (runs of children) that connect these links to their parents, for
+    /// trees of any shape. `copies` is then 0 for links without children and 1 otherwise.
     pub(super) attachments: (usize, usize),
 }
 
 impl Strip {
-    /// Where the sums of a link stand, of a tree of any shape.
+    /// Returns the index of a link's sums in the workspace, for a tree of any shape.
     #[inline(always)]
     pub(super) fn slot(&self, link: usize) -> usize {
         link - self.first.own + self.first.slot
@@ -45,7 +43,7 @@ impl Strip {
 }
 
 impl Strip {
-    /// Links of one height in a tree of any shape, with those attachments.
+    /// Creates the strip of links of one height in a tree of any shape, with their attachments.
     fn of_height(
         links: Range<usize>,
         slot: usize,
@@ -73,57 +71,60 @@ impl Strip {
     }
 }
 
-/// Neighbours whose parents are neighbours in the same order.
+/// Attachment: neighbouring links whose parents are neighbours in the same order.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Attachment {
-    /// The first parent, and its first child.
+    /// Index of the first parent, and of its first child.
     pub(super) parent: usize,
     pub(super) child: usize,
-    /// Where the sums of the first parent stand.
+    /// Index of the first parent's sums in the workspace.
     pub(super) slot: usize,
     /// Number of children.
     pub(super) length: usize,
-    /// No child of these parents has been attached before.
+    /// True if these are the first children that are attached to their parents, so that the sums
+    /// are set instead of increased.
     pub(super) first: bool,
 }
 
 impl Attachment {
-    /// Returns true if a child of this parent follows the ones here.
+    /// Returns true if the next child, with the parent `parent`, continues this attachment.
     fn goes_on(&self, parent: usize, first: bool) -> bool {
         self.first == first && parent == self.parent + self.length
     }
 }
 
-/// The links with children of a block, strip by strip from its first generation on.
+/// Links with children of a block, strip by strip from its first generation on.
 ///
-/// Strips are the same for all blocks of a partition, but for where these start in arrays of
-/// the whole tree. What has seen once that [`reach`](Self::reach) numbers are there
-/// needs no other question: strips are made here alone, and none goes beyond.
+/// All blocks of a partition have the same strips, except for their start in arrays of the whole
+/// tree. Strips are created only here, and none exceeds [`reach`](Self::reach), so that a caller
+/// that has checked this length once needs no other check.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Strips {
     list: Vec<Strip>,
     attachments: Vec<Attachment>,
-    /// Of a tree of any shape: what goes up at once, the last one first.
+    /// For a tree of any shape: groups of subtrees that are computed together in the upward pass,
+    /// the last group first.
     subtrees: Vec<SmallSubtrees>,
     reach: Reach,
     branching: usize,
 }
 
-/// How many numbers there have to be, registers of any width behind the last ones
-/// included but for arrays of the whole tree.
+/// Lengths of arrays that the strips of a block require. They include a register of any width after
+/// the last link, except in arrays of the whole tree.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Reach {
-    /// In a block's arrays of all links.
+    /// Length of the block's arrays with one number per link.
     pub(super) own: usize,
-    /// In its arrays of links with children.
+    /// Length of the block's arrays with one number per link with children.
     pub(super) slot: usize,
-    /// In arrays of the whole tree from the block's start on.
+    /// Length of the arrays of the whole tree, counted from the block's start.
     pub(super) whole: usize,
 }
 
 impl Strips {
-    /// Of generations from the generation `first` on, `inner` of which are computed and
-    /// have children: leaves below the last of them, or links of other blocks.
+    /// Creates the strips of a block's generations, which start with generation `first` of the
+    /// tree. `inner` of them are computed in this block and have children: leaves, or links of
+    /// other blocks.
     pub(super) fn new(
         generations: &[Generation],
         first: usize,
@@ -183,8 +184,7 @@ impl Strips {
         }
     }
 
-    /// The strips of a tree of any shape, with one parent a link, which stands before
-    /// it in the order of the strips.
+    /// Creates the strips of a tree of any shape, from the order of its links by height.
     pub(super) fn by_height(heights: &Heights, widest: usize) -> Self {
         let Heights {
             parents,
@@ -255,14 +255,13 @@ impl Strips {
         &self.list
     }
 
-    /// How many copies of children there are, if they are as many for all strips;
-    /// otherwise 0.
+    /// Returns the number of copies of children if it is the same for all strips, otherwise 0.
     #[inline(always)]
     pub(super) fn branching(&self) -> usize {
         self.branching
     }
 
-    /// For all of them.
+    /// Returns the lengths of arrays that the strips require.
     #[inline(always)]
     pub(super) fn reach(&self) -> Reach {
         self.reach
@@ -270,7 +269,7 @@ impl Strips {
 }
 
 impl Reach {
-    /// Reaches as far as one strip more.
+    /// Increases the required lengths for one more strip.
     fn take(&mut self, strip: &Strip, widest: usize) {
         let others = strip.copies.saturating_sub(1);
         let in_register = strip.length.max(widest);
@@ -295,7 +294,8 @@ mod tests {
     use crate::simd::WIDEST;
     use crate::tree::generation::generations;
 
-    /// Goes over the last place of every width in every copy, one number after the other.
+    /// Checks for registers of every width that the last position of each copy is within the
+    /// arrays, number by number.
     fn all_places_are_within_reach(copies: &[usize], first: usize, width: usize) {
         let (mut counts, mut starts, mut links) = (Vec::new(), Vec::new(), 0);
         for &copies in copies {

@@ -1,9 +1,9 @@
-//! Long sums.
+//! Accurate sums of many terms.
 
 use crate::scalar::{Lanes, Scalar};
 
-/// Sums, a few hundred terms at a time: the error of a long sum grows with its
-/// length.
+/// Sum that is split into parts of a few hundred terms, because the rounding error of a long sum
+/// grows with its length.
 pub(super) struct Sum<T> {
     total: T,
     part: T,
@@ -37,7 +37,8 @@ impl<T: Scalar> Sum<T> {
     }
 }
 
-/// Sum of many terms, several of them side by side, in the same order for all numbers.
+/// Returns the sum of many terms. It is computed in several lanes, in the same order for all number
+/// types.
 #[inline(always)]
 pub(super) fn total<T: Scalar>(terms: &[T]) -> T {
     let (rows, rest) = terms.as_chunks();

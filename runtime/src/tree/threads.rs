@@ -1,6 +1,6 @@
 //! Jobs on threads.
 
-/// How many threads a tree of so many links is computed on.
+/// Returns the default number of threads for a tree of `links` links.
 pub(super) fn default(links: usize) -> usize {
     #[cfg(feature = "std")]
     if links >= super::THREADED {
@@ -10,8 +10,8 @@ pub(super) fn default(links: usize) -> usize {
     1
 }
 
-/// Strips `work` on each of the `jobs`, each on a thread of its own; the first on
-/// this one. Without the feature `std`, one after the other.
+/// Runs `work` on all `jobs` in parallel, each on a separate thread; the first one runs on this
+/// thread. Without the feature `std`, they run one after the other.
 pub(super) fn all<J: Send>(jobs: impl Iterator<Item = J>, work: impl Fn(J) + Sync) {
     let mut jobs = jobs.peekable();
     let Some(first) = jobs.next() else {

@@ -39,7 +39,12 @@ pub(crate) fn allocations() -> u64 {
     ALLOCATIONS.with(Cell::get)
 }
 
-/// Size of the largest request of this thread in `work`, in bytes, and its result.
+/// Runs `work` and returns the size of this thread's largest request in it, in bytes, with the
+/// result of `work`.
+#[allow(
+    dead_code,
+    reason = "only one of the tests that include this module measures sizes"
+)]
 pub(crate) fn largest_request<R>(work: impl FnOnce() -> R) -> (usize, R) {
     LARGEST.with(|largest| largest.set(0));
     let result = work();

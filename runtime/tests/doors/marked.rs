@@ -185,17 +185,23 @@ fn in_registers<V: Simd<T>, T: Scalar + PartialEq, const SHAPE: usize>(
         |link| of(omega, link),
         |link, value| expected[link] = value,
     );
-    for values in [0, 1, tree.room() / 2, tree.room(), tree.room() + 1] {
-        let mut room = vec![T::from_f64(0.0); values * V::LANES];
+    for values in [
+        0,
+        1,
+        tree.workspace_len() / 2,
+        tree.workspace_len(),
+        tree.workspace_len() + 1,
+    ] {
+        let mut buffer = vec![T::from_f64(0.0); values * V::LANES];
         let mut alpha = vec![None; theta.len()];
-        tree.in_registers::<V>(None, &mut room).evaluate(
+        tree.in_registers::<V>(None, &mut buffer).evaluate(
             |link| V::splat(of(theta, link)),
             |link| V::splat(of(omega, link)),
             |link, value: V| alpha[link] = Some(value.first()),
         );
-        let told: Vec<T> = alpha.iter().copied().flatten().collect();
+        let reported: Vec<T> = alpha.iter().copied().flatten().collect();
         // All of them, or none where the room is too small.
-        assert!(told.is_empty() && values < tree.room() || told == expected);
+        assert!(reported.is_empty() && values < tree.workspace_len() || reported == expected);
     }
 }
 

@@ -55,19 +55,19 @@ fn ends_of_slices<const N: usize>() {
         assert_eq!(front.is_some(), length >= N);
         assert_eq!(last.is_some(), length >= N);
         let Some(front) = front else {
-            let mut room = vec![nan; length];
-            Simd::<f64>::store(Lanes([1.0; N]), &mut room);
-            Simd::<f64>::store_last(Lanes([1.0; N]), &mut room);
-            assert!(room.iter().all(|number| number.is_nan()));
+            let mut buffer = vec![nan; length];
+            Simd::<f64>::store(Lanes([1.0; N]), &mut buffer);
+            Simd::<f64>::store_last(Lanes([1.0; N]), &mut buffer);
+            assert!(buffer.iter().all(|number| number.is_nan()));
             continue;
         };
         assert_eq!(front.0[..], some[..N]);
         assert_eq!(last.unwrap()[..], some[length - N..]);
         assert_eq!(Simd::<f64>::first(front), 0.0);
-        let mut room = vec![nan; length];
-        Simd::<f64>::store(front, &mut room[length - N..]);
-        Simd::<f64>::store_last(front, &mut room);
-        assert_eq!(room[length - N..], some[..N]);
+        let mut buffer = vec![nan; length];
+        Simd::<f64>::store(front, &mut buffer[length - N..]);
+        Simd::<f64>::store_last(front, &mut buffer);
+        assert_eq!(buffer[length - N..], some[..N]);
         for count in [0, 1, N, N + 1, usize::MAX] {
             let either = Simd::<f64>::in_first_lanes(front, count, Lanes([nan; N]));
             let kept = either.0.iter().filter(|number| !number.is_nan()).count();
@@ -173,7 +173,7 @@ impl<T: Scalar, const LINKS: usize> Pendulum<T> for Liar<T, LINKS> {
         }
     }
 
-    fn room(&self) -> usize {
+    fn workspace_len(&self) -> usize {
         1
     }
 }

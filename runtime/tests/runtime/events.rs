@@ -288,3 +288,50 @@ fn events_do_not_change_the_steps() {
     assert_eq!(plain.state, searched.state);
     assert_eq!(plain.report.accepted, searched.report.accepted);
 }
+
+/// Functions that are zero at one time but for rounding, which hides on which side they are
+/// just behind it: all of them are visited at one time, and none again after it.
+#[test]
+fn crossings_that_rounding_cannot_order_are_visited_at_once() {
+    let phases = [0.3, 1.1, 2.4];
+    for (phase, sign) in phases.into_iter().flat_map(|own| [(own, 1.0), (own, -1.0)]) {
+        let (sin, cos) = f64::sin_cos(phase);
+        // sin(phase − t) or its negative, times an odd factor, with a rounding of its own.
+        let functions: Vec<_> = (0..40)
+            .map(|k| {
+                let factor = sign * f64::from(2 * k + 3);
+                move |_: f64, y: &[f64]| (factor * y[0]) * sin + (factor * y[1]) * cos
+            })
+            .collect();
+        let function = |k: usize| Event::new(Crossing::Either, &functions[k]);
+        let events: Vec<_> = (0..functions.len()).map(function).collect();
+        for (begin, end) in [(phase - 0.7, phase + 0.9), (phase + 0.7, phase - 0.9)] {
+            let at = |time: f64| State::new(time, vec![time.cos(), -time.sin()]);
+            let mut visits = vec![0; events.len()];
+            let mut times = Vec::new();
+            let solution = dop853()
+                .integrate_with_events(&harmonic(), &at(begin), end, &events, |found| {
+                    visits[found.event] += 1;
+                    times.push(found.time);
+                    match times.len() == events.len() {
+                        true => ControlFlow::Break(()),
+                        false => ControlFlow::Continue(()),
+                    }
+                })
+                .unwrap();
+            assert_eq!(visits, vec![1; events.len()], "{phase} {sign} from {begin}");
+            for time in &times {
+                assert!((time - phase).abs() < 1e-11, "{time} {phase} from {begin}");
+            }
+            assert_eq!(solution.report.stop, StopReason::StoppedByEvent);
+            let again = dop853().integrate_with_events(
+                &harmonic(),
+                &solution.state,
+                end,
+                &events,
+                |found| -> ControlFlow<()> { panic!("{} again at {}", found.event, found.time) },
+            );
+            assert_eq!(again.unwrap().state.time, end);
+        }
+    }
+}

@@ -20,6 +20,7 @@ mod projection;
 mod reference;
 mod requests;
 mod restarts;
+mod runs;
 mod sector_modes;
 #[cfg(feature = "serde")]
 mod serde;

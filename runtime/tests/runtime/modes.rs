@@ -90,8 +90,8 @@ fn modes_are_about_rest() {
     let error = Modes::at_rest(&[[1.0]], &[[-1.0]], &[0.1]).unwrap_err();
     assert_eq!(
         error.to_string(),
-        "the angles are no equilibrium: a torque of 0.1 N m acts on coordinate 0 at rest. Take \
-         the angles that `equilibrium` finds near them"
+        "the angles are not an equilibrium: at rest, a torque of 0.1 N m acts on coordinate 0. \
+         Use the angles that `equilibrium` finds near them"
     );
     let moving = AtRest {
         mass,

@@ -30,19 +30,20 @@ fn stop_and_go(
     let ode: &dyn Ode<f64> = &harmonic();
     let mut events = events.to_vec();
     events[last] = events[last].with_terminal(1);
-    let (mut state, mut told, mut at_stops) = (start, vec![Vec::new(); events.len()], Vec::new());
+    let (mut state, mut reported, mut at_stops) =
+        (start, vec![Vec::new(); events.len()], Vec::new());
     for _ in 0..100 {
         let mut times = Vec::new();
         let solution = method
             .integrate_with_events(ode, &state, end, &events, |found| {
-                told[found.event].push(found.time);
+                reported[found.event].push(found.time);
                 times.push(found.time);
                 ControlFlow::Continue(())
             })
             .unwrap();
         state = solution.state;
         if solution.report.stop == StopReason::EndReached {
-            return (told, at_stops);
+            return (reported, at_stops);
         }
         assert_eq!(times.last(), Some(&state.time));
         at_stops.push(times.iter().filter(|time| **time == state.time).count());
@@ -64,9 +65,10 @@ fn all_events_at_the_time_of_the_last_are_told_there() {
     fn check(method: &impl Integrator<f64, dyn Ode<f64>>, events: &[Event<'_, f64>], error: f64) {
         for direction in [1.0, -1.0] {
             for last in 0..events.len() {
-                let (told, at_stops) = stop_and_go(method, start(), 16.0 * direction, events, last);
+                let (reported, at_stops) =
+                    stop_and_go(method, start(), 16.0 * direction, events, last);
                 assert_eq!(at_stops, [events.len(); 5]);
-                for times in told {
+                for times in reported {
                     let zeros = (0..5).map(|k| direction * (FRAC_PI_2 + PI * f64::from(k)));
                     assert_eq!(times.len(), 5, "{times:?}");
                     for (time, zero) in times.iter().zip(zeros) {
@@ -85,8 +87,8 @@ fn all_events_at_the_time_of_the_last_are_told_there() {
     // By energy, but for its error: each is told once, at its own time.
     let both = [events[0], Event::new(Crossing::Either, &squared)];
     for last in [0, 1] {
-        let (told, _) = stop_and_go(&dop853(), start(), 16.0, &both, last);
-        assert_eq!([told[0].len(), told[1].len()], [5, 5]);
+        let (reported, _) = stop_and_go(&dop853(), start(), 16.0, &both, last);
+        assert_eq!([reported[0].len(), reported[1].len()], [5, 5]);
     }
 }
 
@@ -101,10 +103,10 @@ fn times_a_few_units_of_rounding_apart_are_one() {
             let events = [&first as &dyn Fn(f64, &[f64]) -> f64, &second]
                 .map(|function| Event::new(Crossing::Either, function));
             for last in [0, 1] {
-                let (told, at_stops) =
+                let (reported, at_stops) =
                     stop_and_go(&dop853(), start(), 12.0 * direction, &events, last);
-                let numbers = [told[0].len(), told[1].len()];
-                assert_eq!(numbers, [1, 1], "{zero} {apart} {last}: {told:?}");
+                let numbers = [reported[0].len(), reported[1].len()];
+                assert_eq!(numbers, [1, 1], "{zero} {apart} {last}: {reported:?}");
                 if apart < 4 {
                     assert_eq!(at_stops, [2]);
                 }

@@ -93,7 +93,7 @@ fn refusals() {
     let refused = |sectors: &[Sector]| SectorModes::new(sectors, &unit, &unit).unwrap_err();
     assert_eq!(
         refused(&[MEANS]).to_string(),
-        "the sectors have 2 coordinates and the matrices 3 rows"
+        "the sectors have 2 coordinates, but the matrices have 3 rows: the numbers must be equal"
     );
     let with = |weights: &[(usize, f64)]| {
         let coordinate = SectorCoordinate::new("theta_d".to_owned(), weights.to_vec());
@@ -101,7 +101,7 @@ fn refusals() {
     };
     assert_eq!(
         refused(&[MEANS, with(&[(3, 1.0)])]).to_string(),
-        "`theta_d` weighs link 3, but the matrices have 3 rows"
+        "coordinate `theta_d` has a weight for link 3, but the matrices have only 3 rows"
     );
     assert_eq!(
         refused(&[MEANS, with(&[])]).to_string(),
@@ -109,7 +109,7 @@ fn refusals() {
     );
     assert_eq!(
         refused(&[MEANS, with(&[(1, 1.0), (2, -0.5)])]).to_string(),
-        "`theta_m` and `theta_d` are not orthogonal"
+        "the coordinates `theta_m` and `theta_d` are not orthogonal"
     );
 
     let sectors = [MEANS, DIFFERENCE];
@@ -134,4 +134,29 @@ fn refusals() {
     let error = SectorModes::new(&sectors, &unit, &smaller).unwrap_err();
     let expected = Modes::new(&unit, &smaller).unwrap_err();
     assert_eq!(error, SectorModesError::Matrices(expected));
+}
+
+/// Sizes between sectors are parts of the largest entry, whichever unit it is in.
+#[test]
+fn what_couples_the_sectors_depends_on_no_unit() {
+    for [one, other] in [[1.2, 0.8], [1.5, 0.3], [0.9, 0.95]] {
+        let expected = |largest: f64| 0.5 * f64::abs(one - other) / largest;
+        for unit in [1e-9, 1.0, 1e-3, 4e5] {
+            let mass = [
+                [unit, 0.0, 0.0],
+                [0.0, one * unit, 0.0],
+                [0.0, 0.0, other * unit],
+            ];
+            let stiffness = [[2.0 * unit, 0.0, 0.0], [0.0, unit, 0.0], [0.0, 0.0, unit]];
+            let of = |mass, stiffness| SectorModes::new(&[MEANS, DIFFERENCE], mass, stiffness);
+            let modes = of(&mass, &stiffness).unwrap();
+            // In orthonormal coordinates the entry of the means is the mean of both.
+            let largest = f64::max(1.0, 0.5 * (one + other));
+            let off = modes.mass_off_block;
+            assert!((off - expected(largest)).abs() < 1e-14, "{off} in {unit}");
+            assert_eq!(modes.stiffness_off_block, 0.0);
+            let modes = of(&stiffness, &mass).unwrap();
+            assert!((modes.stiffness_off_block - expected(largest)).abs() < 1e-14);
+        }
+    }
 }

@@ -122,14 +122,14 @@ fn blocks_know_the_error() {
     }
     // Of independent samples every level has the error, and spreads by its uncertainty.
     for power in [0, 2] {
-        let (mut squares, mut spread, mut told) = (0.0, 0.0, 0.0);
+        let (mut squares, mut spread, mut reported) = (0.0, 0.0, 0.0);
         let error = mean_over(2000, |normal| {
             let level = Blocking::of(&[process_with(0.0, normal, 256)])
                 .unwrap()
                 .levels[power];
             squares += level.error.powi(2) / 2000.0;
             spread += (level.error - 1.0 / 16.0).powi(2) / 2000.0;
-            told += level.uncertainty / 2000.0;
+            reported += level.uncertainty / 2000.0;
             level.error
         });
         assert_within(
@@ -138,7 +138,7 @@ fn blocks_know_the_error() {
             "square of the error of a level",
         );
         let spread = (spread - (error - 1.0 / 16.0).powi(2)).sqrt();
-        assert_within(told / spread, [0.93, 1.07], "uncertainty of an error");
+        assert_within(reported / spread, [0.93, 1.07], "uncertainty of an error");
     }
 }
 

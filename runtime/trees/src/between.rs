@@ -1,4 +1,4 @@
-//! What acts between links, whatever it depends on.
+//! Springs and dampers between links.
 
 use std::hash::Hash;
 
@@ -11,8 +11,7 @@ use branched_pendulum_codegen::scene::{DescribedLinePotential, LinkId, Quantity,
 
 use crate::numbers::{self, value};
 
-/// Springs and dampers between links and to the ground: those on differences of angles, and
-/// straight ones.
+/// Springs and dampers between links and to the ground: torsion spring-dampers, and straight ones.
 #[derive(Clone, Debug)]
 pub(crate) struct Between<T> {
     pub(crate) torsional: SpringDampers<T>,
@@ -20,7 +19,8 @@ pub(crate) struct Between<T> {
 }
 
 impl<T: Scalar> Between<T> {
-    /// Returns what acts between the links of a scene that has so many, in numbers that are taken as they are.
+    /// Returns the springs and dampers between the links of a scene with `links` links, for values
+    /// of its parameters that are not checked.
     pub(crate) fn of(scene: &Scene, links: usize, parameters: &[T]) -> Self {
         let torsional = numbers::spring_dampers(scene, parameters);
         let translational = straight(scene, parameters);
@@ -29,6 +29,14 @@ impl<T: Scalar> Between<T> {
             torsional: SpringDampers::of_runs(links, torsional).unwrap_or_default(),
             translational: TranslationalSpringDampers::new(links, translational)
                 .unwrap_or_default(),
+        }
+    }
+
+    /// Returns an empty set of springs and dampers, for a tree with this number of links.
+    pub(crate) fn none(links: usize) -> Self {
+        Self {
+            torsional: SpringDampers::new(links, Vec::new()).unwrap_or_default(),
+            translational: TranslationalSpringDampers::new(links, Vec::new()).unwrap_or_default(),
         }
     }
 
@@ -54,8 +62,9 @@ impl<T: Scalar> Between<T> {
         self.torsional.is_empty() && self.translational.is_empty()
     }
 
-    /// Writes all torques: those from `outside`, and those between links. NaN for slices of another
-    /// length than there are links.
+    /// Writes the sum of all torques on the links: the torques in `outside`, if given, and the
+    /// torques of springs and dampers between links. NaN if a slice does not have one number per
+    /// link.
     #[inline(always)]
     pub(crate) fn write_torques(&self, outside: Option<&[T]>, given: [&[T]; 2], torques: &mut [T]) {
         self.torsional.write_torques(outside, given, torques);
@@ -81,7 +90,7 @@ impl<T: Scalar> Between<T> {
     }
 }
 
-/// The straight springs and dampers of a scene.
+/// Returns the straight springs and dampers of a scene.
 fn straight<S: Scalar>(scene: &Scene, parameters: &[S]) -> Vec<TranslationalSpringDamper<S>> {
     let at = |quantity: &Quantity| value(quantity, parameters);
     let given = |quantity: &Quantity| (!quantity.is_zero()).then(|| at(quantity));

@@ -1,26 +1,26 @@
-//! The links of a tree as bodies, with the equations of the tree's form.
+//! Links of a tree as rigid bodies, for the energies of each form of its equations.
 
 use branched_pendulum::scalar::Scalar;
 use branched_pendulum::system::Workspace;
-use branched_pendulum::tree::{Bodies, Shape};
+use branched_pendulum::tree::{Bodies, LinkSlopes, Shape};
 
-use crate::equations::{Form, GeneralEquations, RoughEquations, StraightEquations};
+use crate::equations::{Form, GeneralEquations, NonViscousEquations, PlainEquations};
 
-/// Bodies in one of the forms.
+/// Rigid bodies of a tree in one of the forms of its equations.
 #[derive(Clone, Debug)]
 pub(crate) enum FormBodies<T> {
-    Straight(Bodies<StraightEquations, T>),
+    Plain(Bodies<PlainEquations, T>),
     General(Bodies<GeneralEquations, T>),
-    Rough(Bodies<RoughEquations, T>),
+    NonViscous(Bodies<NonViscousEquations, T>),
 }
 
-/// Asks the bodies, whatever their form.
+/// Calls a function of the bodies of any form.
 macro_rules! ask {
     ($form:expr, $bodies:ident => $answer:expr) => {
         match $form {
-            FormBodies::Straight($bodies) => $answer,
+            FormBodies::Plain($bodies) => $answer,
             FormBodies::General($bodies) => $answer,
-            FormBodies::Rough($bodies) => $answer,
+            FormBodies::NonViscous($bodies) => $answer,
         }
     };
 }
@@ -28,17 +28,17 @@ macro_rules! ask {
 impl<T: Scalar> FormBodies<T> {
     pub(crate) fn new(form: Form, shape: Shape, rows: Vec<T>) -> Self {
         match form {
-            Form::Straight => Self::Straight(Bodies::new(shape, rows)),
+            Form::Plain => Self::Plain(Bodies::new(shape, rows)),
             Form::General => Self::General(Bodies::new(shape, rows)),
-            Form::Rough => Self::Rough(Bodies::new(shape, rows)),
+            Form::NonViscous => Self::NonViscous(Bodies::new(shape, rows)),
         }
     }
 
     pub(crate) fn cast<S: Scalar>(&self, convert: impl Fn(T) -> S) -> FormBodies<S> {
         match self {
-            Self::Straight(bodies) => FormBodies::Straight(bodies.cast(convert)),
+            Self::Plain(bodies) => FormBodies::Plain(bodies.cast(convert)),
             Self::General(bodies) => FormBodies::General(bodies.cast(convert)),
-            Self::Rough(bodies) => FormBodies::Rough(bodies.cast(convert)),
+            Self::NonViscous(bodies) => FormBodies::NonViscous(bodies.cast(convert)),
         }
     }
 
@@ -53,6 +53,14 @@ impl<T: Scalar> FormBodies<T> {
 
     pub(crate) fn potential_energy(&self, workspace: &mut Workspace<T>, theta: &[T]) -> T {
         ask!(self, bodies => bodies.potential_energy(workspace, theta))
+    }
+
+    pub(crate) fn potential_energy_slopes(
+        &self,
+        theta: &[T],
+        visit: impl FnMut(LinkSlopes<T>),
+    ) -> bool {
+        ask!(self, bodies => bodies.potential_energy_slopes(theta, visit))
     }
 
     pub(crate) fn drive_power(

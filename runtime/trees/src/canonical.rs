@@ -1,13 +1,58 @@
 //! Hamilton's equations.
 
 use branched_pendulum::scalar::{Dual, Scalar};
-use branched_pendulum::system::{Canonical, Forced, Model, Pendulum, Workspace};
+use branched_pendulum::system::{Canonical, LinkProperties, Model, Pendulum, Workspace};
+use branched_pendulum_codegen::scene::{FrictionLaw, PassiveTorques};
 
+use crate::between::Between;
+use crate::equations::Form;
+use crate::forms::{Acting, Equations};
+use crate::numbers::LinkNumbers;
+use crate::rows;
 use crate::tree::PendulumTree;
 
-/// Velocities are what torques p less the velocities' own terms accelerate, and the rates of
-/// the momenta are their derivative along the motion: of friction, springs and drive nothing
-/// has to be known here. O(links²); allocates.
+impl<T: Scalar> PendulumTree<T> {
+    /// Returns the equations of the same links at rest, without gravity, springs and friction. With
+    /// these, torques p cause the accelerations M⁻¹ p.
+    fn inertia_alone(&self) -> Equations<T> {
+        let zero = T::from_f64(0.0);
+        let none = FrictionLaw {
+            coulomb: zero,
+            quadratic: zero,
+            width: zero,
+        };
+        let properties = (0..self.links()).map_while(|link| self.properties.of(link));
+        let links = properties.map(|own: LinkProperties<T>| LinkNumbers {
+            parent: own.parent,
+            mass: own.mass,
+            inertia: own.inertia,
+            com: own.centre,
+            pivot: own.pivot,
+            end: own.end,
+            passive: PassiveTorques {
+                friction: zero,
+                drag: zero,
+                spring: zero,
+                rest: zero,
+                laws: [none; 2],
+            },
+        });
+        let links: Vec<LinkNumbers<T>> = links.collect();
+        let (parents, carries) = rows::parents(&links);
+        let rows = Form::General.rows(&links, &carries);
+        Equations::new(
+            Form::General,
+            &parents,
+            rows,
+            zero,
+            Between::none(links.len()),
+        )
+    }
+}
+
+/// Velocities are M⁻¹ p. The rates of the momenta are the derivative of the momenta along the
+/// motion, so that this code needs no knowledge of friction, springs and drive. O(links²);
+/// allocates.
 impl<T: Scalar> Canonical<T> for PendulumTree<T> {
     fn degrees_of_freedom(&self) -> usize {
         self.links()
@@ -28,16 +73,16 @@ impl<T: Scalar> Canonical<T> for PendulumTree<T> {
             }
             return;
         }
-        // M ω = p: at rest M α = Q + torques that do not depend on Q.
+        // M ω = p.
         let workspace = &mut Workspace::new();
         let still = vec![T::from_f64(0.0); n];
-        let mut without = still.clone();
-        self.accelerations_with(workspace, time, theta, &still, &mut without);
-        self.accelerations_under_with(workspace, time, theta, &still, momenta, q_rates);
-        for (velocity, without) in q_rates.iter_mut().zip(&without) {
-            *velocity = *velocity - *without;
-        }
-        let mut alpha = without;
+        let acting = Acting {
+            drive: None,
+            torques: Some(momenta),
+        };
+        self.inertia_alone()
+            .accelerate(workspace, acting, [theta, &still], q_rates);
+        let mut alpha = still;
         self.accelerations_with(workspace, time, theta, q_rates, &mut alpha);
         let along = |values: &[T], rates: &[T]| -> Vec<Dual<T, 1>> {
             let pairs = values.iter().zip(rates);

@@ -1,43 +1,43 @@
-//! Constants of energies and powers: the mass of each link, and the first moment of all that it
-//! carries about its pivot.
+//! Constants for energies and powers: the mass of each link, and the first moment, about the link's
+//! pivot, of the link with its subtree.
 
 use branched_pendulum::scalar::Double;
 
-use crate::equations::{Form, GeneralBodyRow, RoughBodyRow, StraightBodyRow};
+use crate::equations::{Form, GeneralBodyRow, NonViscousBodyRow, PlainBodyRow};
 use crate::numbers::LinkNumbers;
 
 impl Form {
-    /// Returns the constants of energies and powers, a row for each link.
+    /// Returns the constants for energies and powers, one row per link.
     pub(crate) fn bodies(self, links: &[LinkNumbers], gravity: Double) -> Vec<Double> {
         let bodies = carried(links).into_iter().zip(links);
         match self {
-            Self::Straight => bodies
-                .flat_map(|(carried, link)| carried.straight(link, gravity).into_array())
+            Self::Plain => bodies
+                .flat_map(|(carried, link)| carried.plain(link, gravity).into_array())
                 .collect(),
             Self::General => bodies
                 .flat_map(|(carried, link)| carried.general(link, gravity).into_array())
                 .collect(),
-            Self::Rough => bodies
-                .flat_map(|(carried, link)| carried.rough(link, gravity).into_array())
+            Self::NonViscous => bodies
+                .flat_map(|(carried, link)| carried.non_viscous(link, gravity).into_array())
                 .collect(),
         }
     }
 }
 
-/// All that hangs from the pivot of a link, itself included.
+/// Inertia of a link together with its subtree, relative to the link's pivot.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Carried {
     mass: Double,
-    /// Moment of inertia about the pivot: the diagonal of the mass matrix.
+    /// Moment of inertia about the pivot: the diagonal entry of the mass matrix, kg m².
     pub(crate) inertia: Double,
-    /// First moment about the pivot, along the link and across it.
+    /// First moment about the pivot, along the link and across it, kg m.
     pub(crate) moment: [Double; 2],
 }
 
 impl Carried {
-    /// Returns the constants of energies of links of [`Form::Straight`].
-    fn straight(self, link: &LinkNumbers, gravity: Double) -> StraightBodyRow<Double> {
-        StraightBodyRow {
+    /// Returns the constants for energies of a link of [`Form::Plain`].
+    fn plain(self, link: &LinkNumbers, gravity: Double) -> PlainBodyRow<Double> {
+        PlainBodyRow {
             body_mass: link.mass,
             body_inertia: link.inertia,
             com_along: link.com[0],
@@ -46,7 +46,7 @@ impl Carried {
         }
     }
 
-    /// Returns those of [`Form::General`].
+    /// Returns the constants for energies of a link of [`Form::General`].
     fn general(self, link: &LinkNumbers, gravity: Double) -> GeneralBodyRow<Double> {
         let passive = &link.passive;
         GeneralBodyRow {
@@ -67,11 +67,11 @@ impl Carried {
         }
     }
 
-    /// Returns those of [`Form::Rough`].
-    fn rough(self, link: &LinkNumbers, gravity: Double) -> RoughBodyRow<Double> {
+    /// Returns the constants for energies of a link of [`Form::NonViscous`].
+    fn non_viscous(self, link: &LinkNumbers, gravity: Double) -> NonViscousBodyRow<Double> {
         let passive = &link.passive;
         let [joint, ground] = &passive.laws;
-        RoughBodyRow {
+        NonViscousBodyRow {
             rest: passive.rest,
             friction_width: joint.width,
             drag_width: ground.width,
@@ -95,7 +95,7 @@ impl Carried {
     }
 }
 
-/// Returns what each link carries.
+/// Returns, for each link, the inertia of the link together with its subtree.
 pub(crate) fn carried(links: &[LinkNumbers]) -> Vec<Carried> {
     let own = links.iter().map(|link| {
         let [along, across] = link.com;
@@ -107,7 +107,7 @@ pub(crate) fn carried(links: &[LinkNumbers]) -> Vec<Carried> {
         }
     });
     let mut all: Vec<Carried> = own.collect();
-    // Parents stand before their children.
+    // Parents come before their children.
     for (number, link) in links.iter().enumerate().rev() {
         let mass = all.get(number).map(|own| own.mass);
         let parent = link.parent.and_then(|parent| all.get_mut(parent));

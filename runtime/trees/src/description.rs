@@ -1,4 +1,4 @@
-//! Descriptions: trees whose parameters have no values yet.
+//! Descriptions of trees, whose parameters have no values yet.
 
 use std::sync::Arc;
 
@@ -9,7 +9,7 @@ use crate::error::{DescriptionError, TreeError};
 use crate::text;
 use crate::tree::PendulumTree;
 
-/// A description, read and checked.
+/// A parsed and checked description of a tree, whose parameters have no values yet.
 ///
 /// # Examples
 ///
@@ -30,11 +30,11 @@ pub struct TreeDescription {
 }
 
 impl TreeDescription {
-    /// Reads what stands between the parentheses of the attribute `branched_pendulum`.
+    /// Parses a description: the text between the parentheses of the attribute `branched_pendulum`.
     ///
     /// # Errors
-    /// All mistakes, with their places in the text. Anything that is derived for one tree
-    /// alone is one: Taylor series and transverse equations.
+    /// [`DescriptionError`] with all mistakes and their positions in the text. `emit(taylor)` and
+    /// transverse equations are mistakes too, because these are derived for compiled trees only.
     pub fn parse(text: &str) -> Result<Self, DescriptionError> {
         let scene = Arc::new(text::scene(text)?);
         Ok(Self { scene })
@@ -46,23 +46,24 @@ impl TreeDescription {
         parameters.map(|parameter| parameter.name.as_str())
     }
 
-    /// Returns the use of a parameter, in words and with its unit.
+    /// Returns what a parameter is used for, with its unit, as in "gravity, m/s²"; `None` if there
+    /// is no such parameter.
     pub fn parameter_use(&self, name: &str) -> Option<&str> {
         let mut parameters = self.scene.parameters.iter();
         let found = parameters.find(|parameter| parameter.name == name)?;
         Some(&found.doc)
     }
 
-    /// Returns the tree with values for its parameters, in SI units.
+    /// Returns the tree for the given values of its parameters, in SI units.
     ///
     /// # Errors
-    /// A name that is no parameter, a parameter without a value, and values that no
-    /// pendulum can have.
+    /// [`TreeError`] for an unknown parameter, for a parameter without a value, and for values that
+    /// are not physical.
     pub fn tree<T: Scalar>(&self, values: &[(&str, f64)]) -> Result<PendulumTree<T>, TreeError> {
         PendulumTree::of(self.clone(), self.values(values)?)
     }
 
-    /// Returns the values of all parameters in their order.
+    /// Returns the values of all parameters, in the order of the description.
     pub(crate) fn values(&self, values: &[(&str, f64)]) -> Result<Vec<f64>, TreeError> {
         let mut own = vec![None; self.scene.parameters.len()];
         for &(name, value) in values {
@@ -81,7 +82,7 @@ impl TreeDescription {
         Ok(known)
     }
 
-    /// Returns the index of a parameter.
+    /// Returns the index of the parameter with this name, or an error if it does not exist.
     pub(crate) fn place(&self, name: &str) -> Result<usize, TreeError> {
         let found = self.parameters().position(|parameter| parameter == name);
         found.ok_or_else(|| TreeError::UnknownParameter {

@@ -1,4 +1,4 @@
-//! The drive: torque and motion from outside as functions of time.
+//! The drive: external torque on the root and motion of its pivot, as functions of time.
 
 use branched_pendulum::scalar::{Dual, Scalar};
 use branched_pendulum::taylor::Quad;
@@ -6,19 +6,19 @@ use branched_pendulum::tree::RootDrive;
 use branched_pendulum_codegen::scene::{Drive, Quantity, Scene, Signal, SignalAtom, TimeFunction};
 
 use crate::numbers::evaluate;
-use crate::signal_series::{quads, series, series_beside};
+use crate::signal_series::{buffer_series, quads, series};
 
-/// The drive in numbers.
+/// The functions of time of a drive, with constants of type `T`.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Courses<T> {
     drive: Drive<T>,
-    /// True if angles are those from the upward vertical.
+    /// True if angles are measured from the upward vertical.
     stands: bool,
-    /// Acceleration of gravity, in the directions of the equations.
+    /// Acceleration of gravity, along the axes of the equations.
     gravity: T,
 }
 
-/// Returns the value of a function of time in any numbers that constants can be taken to.
+/// Returns the value of a function of time in the scalar type `S`; `lift` converts constants to it.
 fn value_at<T: Scalar, S: Scalar>(signal: &Signal<T>, time: S, lift: &impl Fn(T) -> S) -> S {
     evaluate(signal, &|atom| match atom {
         SignalAtom::Constant(value) => lift(*value),
@@ -28,7 +28,8 @@ fn value_at<T: Scalar, S: Scalar>(signal: &Signal<T>, time: S, lift: &impl Fn(T)
     })
 }
 
-/// Returns the second derivative, by dual numbers of dual numbers: exact to rounding.
+/// Returns the second derivative of a function of time, computed with nested dual numbers: exact up
+/// to rounding.
 fn acceleration<T: Scalar>(signal: &Signal<T>, time: T) -> T {
     let inner = Dual::<T, 1>::variable(time, 0);
     let outer = Dual::<Dual<T, 1>, 1>::variable(inner, 0);
@@ -41,7 +42,8 @@ fn acceleration<T: Scalar>(signal: &Signal<T>, time: T) -> T {
 }
 
 impl<T: Scalar> Courses<T> {
-    /// Returns the drive of a scene, whose quantities `constant` takes to numbers.
+    /// Returns the drive of a scene, with each quantity converted to a number by `constant`; `None`
+    /// if it has no drive.
     pub(crate) fn of(scene: &Scene, constant: &impl Fn(&Quantity) -> T) -> Option<Self> {
         let drive = scene.drive.as_ref()?.map(constant);
         Some(Self {
@@ -59,26 +61,27 @@ impl<T: Scalar> Courses<T> {
         }
     }
 
-    /// Returns the number of quads that [`series`](Self::series) takes.
-    pub(crate) fn room(&self, order: usize) -> usize {
+    /// Returns the length of the buffer, in quads (groups of four numbers), that
+    /// [`series`](Self::series) needs.
+    pub(crate) fn workspace_len(&self, order: usize) -> usize {
         let Drive { torque, x, y } = &self.drive;
         let signals = [torque, x, y].into_iter().flatten();
-        let beside = signals.map(series_beside).max().unwrap_or(0);
+        let beside = signals.map(buffer_series).max().unwrap_or(0);
         order + 1 + (1 + beside) * quads(order + 3)
     }
 
-    /// Returns for each order up to `order` the coefficients of the acceleration of the root's
-    /// pivot, that of gravity included, and of the torque, in the directions of the equations.
+    /// Returns, for each order up to `order`, the Taylor coefficients of the acceleration of the
+    /// root's pivot (including gravity) and of the torque, along the axes of the equations.
     pub(crate) fn series<'a>(
         &self,
         time: T,
         order: usize,
-        room: &'a mut [Quad<T>],
+        buffer: &'a mut [Quad<T>],
     ) -> &'a [Quad<T>] {
         let zero = T::from_f64(0.0);
         let count = order + 3;
-        let (orders, room) = room.split_at_mut((order + 1).min(room.len()));
-        let (result, beside) = room.split_at_mut(quads(count).min(room.len()));
+        let (orders, buffer) = buffer.split_at_mut((order + 1).min(buffer.len()));
+        let (result, beside) = buffer.split_at_mut(quads(count).min(buffer.len()));
         orders.fill(Quad::splat(zero));
         let Drive { torque, x, y } = &self.drive;
         for (lane, signal) in [x, y, torque].into_iter().enumerate() {
@@ -90,7 +93,7 @@ impl<T: Scalar> Courses<T> {
                     Some(quad) => quad.0[order % 4],
                     None => zero,
                 };
-                // The second derivative of a position.
+                // Second derivative of the position.
                 let factor = T::from_f64(((k + 1) * (k + 2)) as f64);
                 let value = if lane == 2 { at(k) } else { factor * at(k + 2) };
                 own.0[lane] = if upwards { -value } else { value };
@@ -102,7 +105,8 @@ impl<T: Scalar> Courses<T> {
         orders
     }
 
-    /// Returns the drive at a time: acceleration x, y of the root's pivot, torque.
+    /// Returns the drive at a time: acceleration \[x, y\] of the root's pivot (m/s²), with y
+    /// upwards, and torque (N m) on the root.
     pub(crate) fn at(&self, time: T) -> [T; 3] {
         let zero = T::from_f64(0.0);
         let Drive { torque, x, y } = &self.drive;
@@ -117,14 +121,14 @@ impl<T: Scalar> Courses<T> {
         [x, y, torque]
     }
 
-    /// Returns that drive in the directions of the equations: y against that of links of
-    /// angle 0.
+    /// Returns the drive at a time along the axes of the equations, whose y axis is opposite to
+    /// links at angle 0.
     pub(crate) fn inner(&self, time: T) -> [T; 3] {
         let [x, y, torque] = self.at(time);
         [x, if self.stands { -y } else { y }, torque]
     }
 
-    /// Returns that drive as the equations take it, which are in SI units.
+    /// Returns the drive at a time in the type that the equations expect, in SI units.
     pub(crate) fn root(&self, time: T) -> RootDrive<T> {
         let [x, y, torque] = self.inner(time);
         RootDrive {

@@ -25,8 +25,8 @@ impl<T: Scalar> PendulumTree<T> {
         self.equations.between()
     }
 
-    /// Returns the power (W) of friction and drag, never positive. The angles matter to straight
-    /// dampers alone; NaN where the points of one meet.
+    /// Returns the power (W) of friction and drag, which is never positive. It depends on the
+    /// angles only if there are straight dampers; NaN if the end points of such a damper meet.
     #[must_use]
     pub fn friction_power(&self, theta: &[T], omega: &[T]) -> T {
         match self.between().is_empty() {
@@ -35,14 +35,14 @@ impl<T: Scalar> PendulumTree<T> {
         }
     }
 
-    /// Returns the power (W) of torques from outside.
+    /// Returns the power (W) of the external torques (N m).
     #[must_use]
     pub fn outside_power(&self, omega: &[T], torques: &[T]) -> T {
         self.bodies.outside_power(omega, torques)
     }
 
-    /// Returns the power (W) of the drive, zero without one: dE/dt of the energy is this
-    /// and the powers of friction and of torques from outside.
+    /// Returns the power (W) of the drive, zero without one. The rate dE/dt of the energy is the
+    /// sum of the powers of drive, friction and external torques.
     #[must_use]
     pub fn drive_power(&self, time: T, theta: &[T], omega: &[T]) -> T {
         let zero = T::from_f64(0.0);
@@ -61,7 +61,7 @@ impl<T: Scalar> PendulumTree<T> {
         self.drive.as_ref().map(|drive| drive.at(time))
     }
 
-    /// Returns the generalized momenta ∂K/∂ω (kg m²/s). O(links²).
+    /// Returns the generalized momenta ∂K/∂ω (kg m²/s) of the links. O(links²).
     #[must_use]
     pub fn momenta(&self, theta: &[T], omega: &[T]) -> Vec<T> {
         let bodies = self.bodies.cast(Slopes::<T>::constant);
@@ -69,7 +69,7 @@ impl<T: Scalar> PendulumTree<T> {
     }
 
     fn momenta_of(&self, bodies: &FormBodies<Slopes<T>>, theta: &[T], omega: &[T]) -> Vec<T> {
-        // A value that is no number has derivatives of zero.
+        // A value that is not a number has derivatives of zero.
         if theta.len() != self.links() {
             return vec![T::from_f64(f64::NAN); self.links()];
         }
@@ -79,8 +79,8 @@ impl<T: Scalar> PendulumTree<T> {
         })
     }
 
-    /// Returns the mass matrix (kg m²) at angles `theta`, a row for each link: the momenta
-    /// of unit velocities. O(links³).
+    /// Returns the mass matrix (kg m²) at angles `theta` (rad), one row per link: row i contains
+    /// the momenta at unit velocity of link i. O(links³).
     #[must_use]
     pub fn mass_matrix(&self, theta: &[T]) -> Vec<Vec<T>> {
         let bodies = self.bodies.cast(Slopes::<T>::constant);
@@ -93,39 +93,16 @@ impl<T: Scalar> PendulumTree<T> {
         };
         (0..self.links()).map(row).collect()
     }
-
-    /// Returns the second derivatives (N m/rad) of the potential energy at angles `theta`, a
-    /// row for each link. O(links³).
-    #[must_use]
-    pub fn stiffness_matrix(&self, theta: &[T]) -> Vec<Vec<T>> {
-        type Twice<T> = Slopes<Dual<T, 1>>;
-        if theta.len() != self.links() {
-            return vec![vec![T::from_f64(f64::NAN); self.links()]; self.links()];
-        }
-        let lift = |value: T| Twice::<T>::constant(Dual::constant(value));
-        let (bodies, between) = (self.bodies.cast(lift), self.between().cast(lift));
-        let row = |link: usize| {
-            let mut point: Vec<Dual<T, 1>> = theta.iter().copied().map(Dual::constant).collect();
-            if let Some(own) = point.get_mut(link) {
-                *own = Dual::variable(own.value, 0);
-            }
-            let slopes = gradient_of(self.links(), &point, |theta, workspace| {
-                potential_energy(&bodies, &between, workspace, theta)
-            });
-            slopes.into_iter().map(|slope| slope.tangents[0]).collect()
-        };
-        (0..self.links()).map(row).collect()
-    }
 }
 
 impl PendulumTree<f64> {
-    /// Returns the linear modes about angles `theta` (rad) at which the tree stays at rest:
-    /// zeros, unless springs or lateral offsets hold it elsewhere, where
-    /// [`equilibrium`](Self::equilibrium) finds them. Friction and drive are left out.
+    /// Returns the linear modes about equilibrium angles `theta` (rad). They are zeros, unless
+    /// springs or lateral offsets cause another equilibrium, which
+    /// [`equilibrium`](Self::equilibrium) finds. Friction and drive are neglected.
     ///
     /// # Errors
-    /// [`ModesError`] for angles of another number than there are links, for those that are no
-    /// equilibrium (with the torques there), and for an unstable one.
+    /// [`ModesError`] if there is not one angle per link, if the angles are not an equilibrium
+    /// (with the torques there), or if it is unstable.
     ///
     /// # Examples
     ///
@@ -147,12 +124,12 @@ impl PendulumTree<f64> {
         )
     }
 
-    /// Returns the angles (rad) near `theta` at which the tree stays at rest, stable or not.
-    /// The drive is left out.
+    /// Returns equilibrium angles (rad) near `theta`, stable or not, found by Newton's method;
+    /// [`stable_equilibrium`](Self::stable_equilibrium) descends to a stable equilibrium. The drive
+    /// is neglected.
     ///
     /// # Errors
-    /// [`EquilibriumError`] for angles of another number than there are links, and where none
-    /// is found.
+    /// [`EquilibriumError`] if there is not one angle per link, or if no equilibrium is found.
     ///
     /// # Examples
     ///
@@ -168,23 +145,21 @@ impl PendulumTree<f64> {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn equilibrium(&self, theta: &[f64]) -> Result<Vec<f64>, EquilibriumError> {
+        // Without torques nothing is solved: a matrix of all links takes memory and time.
+        if self
+            .torques_at_rest(theta)
+            .iter()
+            .all(|torque| *torque == 0.0)
+        {
+            return Ok(theta.to_vec());
+        }
         equilibrium_of_torques(theta, |theta| {
             Ok((self.stiffness_matrix(theta), self.torques_at_rest(theta)))
         })
     }
-
-    /// The torques −∂U/∂θ on the links.
-    fn torques_at_rest(&self, theta: &[f64]) -> Vec<f64> {
-        let bodies = self.bodies.cast(Slopes::<f64>::constant);
-        let between = self.between().cast(Slopes::<f64>::constant);
-        let slopes = gradient_of(self.links(), theta, |theta, workspace| {
-            potential_energy(&bodies, &between, workspace, theta)
-        });
-        slopes.into_iter().map(|slope| -slope).collect()
-    }
 }
 
-/// Energy of gravity and of all springs.
+/// Returns the potential energy (J) of gravity and of all springs.
 pub(crate) fn potential_energy<T: Scalar>(
     bodies: &FormBodies<T>,
     between: &Between<T>,
@@ -198,7 +173,7 @@ pub(crate) fn potential_energy<T: Scalar>(
     }
 }
 
-/// Derivatives of a function by its variables. NaN for another number of values than `n`.
+/// Returns the derivatives of a function by its variables; NaN if the number of values is not `n`.
 fn gradient_of<T: Scalar>(
     n: usize,
     values: &[T],

@@ -1,7 +1,9 @@
-//! Errors of descriptions and of values.
+//! Errors of descriptions, and of values for their parameters.
 
 use std::fmt;
 
+use branched_pendulum::analysis::EquilibriumError;
+use branched_pendulum::analysis::normal_form::NormalFormError;
 use branched_pendulum::emitted::shown;
 use branched_pendulum_codegen::report::{Faults, Problem};
 use thiserror::Error;
@@ -10,7 +12,7 @@ use thiserror::Error;
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum TreeError {
-    /// The text is no description of a tree that can be computed.
+    /// The text does not describe a tree that can be computed.
     #[error(transparent)]
     Description(#[from] DescriptionError),
     /// Parameters without a value.
@@ -19,7 +21,7 @@ pub enum TreeError {
         /// Their names.
         names: Vec<String>,
     },
-    /// A value for a name that is no parameter.
+    /// A value was given for an unknown parameter.
     #[error("no parameter `{name}`: {}", known(.parameters))]
     UnknownParameter {
         /// The name.
@@ -27,17 +29,17 @@ pub enum TreeError {
         /// Names of all parameters.
         parameters: Vec<String>,
     },
-    /// A value that no pendulum can have.
+    /// A value is not physical.
     #[error("{what} is {}, must be {requirement}", shown(*.value))]
     Value {
-        /// The quantity, as in "mass of `child`".
+        /// Name of the quantity, such as "mass of `child`".
         what: String,
         /// Value of the quantity, in SI units.
         value: f64,
-        /// The condition on it, as in "positive".
+        /// Condition that the value violates, such as "positive".
         requirement: &'static str,
     },
-    /// A name that no observable of the description has.
+    /// The description has no observable of this name.
     #[error("no observable `{name}`: {}", known(.observables))]
     UnknownObservable {
         /// The name.
@@ -45,10 +47,10 @@ pub enum TreeError {
         /// Names of all observables.
         observables: Vec<String>,
     },
-    /// A constant between copies that differ, which compiled models alone name.
+    /// An observable uses a constant of copies that differ, which only compiled models support.
     #[error(
-        "`{observable}` asks for `{constant}`, which trees at run time do not name where copies \
-         differ: write its value, or a parameter, in its place"
+        "`{observable}` uses `{constant}`, a name that trees at run time do not have if copies \
+         differ: write its value, or a parameter, instead"
     )]
     Constant {
         /// Name of the observable.
@@ -56,38 +58,45 @@ pub enum TreeError {
         /// Name of the constant.
         constant: String,
     },
-    /// Symmetric coordinates, or what is made of them, of a tree with springs that couple sectors.
+    /// Symmetric coordinates, or results that need them, were requested of a tree with springs that
+    /// couple sectors.
     #[error(
-        "springs `between(...)` links couple the tree's sectors, which have no energies by \
-         themselves then: write `siblings(NODE, spring = ...)` for springs between all copies of a \
-         node under one link, or watch an energy of your own by `observe(...)`"
+        "springs `between(...)` links couple the tree's sectors, so that a sector has no energy by \
+         itself: write `siblings(NODE, spring = ...)` for springs between all copies of a node \
+         under one link, or define an energy of your own by `observe(...)`"
     )]
     CoupledSectors,
-    /// Energies of sectors, or what is made of them, of a tree with straight springs.
+    /// Energies of sectors, or results that need them, were requested of a tree with straight
+    /// springs.
     #[error(
-        "of straight springs a sector has those without length at rest and without friction \
-         alone, between equal places of all copies of a node under one link, and the tree has the \
-         {line}: write `siblings(NODE, at = ..., spring = ...)`, or a torsion spring without `at`, \
-         or watch an energy of your own by `observe(...)`"
+        "sectors have an energy only if every straight spring has zero rest length and no \
+         friction, and connects equal points of all copies of a node under one link; this tree has \
+         the {line}: write `siblings(NODE, at = ..., spring = ...)`, or a torsion spring without `at`, \
+         or define an energy of your own by `observe(...)`"
     )]
     StraightSpring {
-        /// What acts along the line with its clause, as in "straight spring `between(a, b)`".
+        /// Straight spring or damper, with its clause, such as "straight spring `between(a, b)`".
         line: String,
     },
-    /// Symmetric coordinates, or what is made of them, of a tree without copies.
+    /// Symmetric coordinates, or results that need them, were requested of a tree without copies.
     #[error(
-        "the tree has no copies, between which there are differences to transfer energy to: \
+        "the tree has no copies, so that there are no differences which could receive energy: \
          write equal subtrees once, as in `child(...) * 2`, or by `generations(...)`; copies \
          that move `in_phase(...)` have no differences"
     )]
     NoCopies,
-    /// A motion in phase of links that do not move alike.
+    /// An in-phase motion was requested for links that are not identical or do not stay in phase.
     #[error(
-        "the links do not move alike when they start alike: name links that are copies of each \
-         other, as those of `child(...) * 2`, with nothing between them and other links that one \
-         of them lacks"
+        "the links do not stay in phase when they start in phase: name links that are copies of each \
+         other, as in `child(...) * 2`, and whose springs and friction to other links are the same"
     )]
     NotInPhase,
+    /// The normal form of a motion cannot be derived.
+    #[error(transparent)]
+    NormalForm(#[from] NormalFormError),
+    /// No equilibrium of the tree was found.
+    #[error(transparent)]
+    Equilibrium(#[from] EquilibriumError),
 }
 
 fn quoted(names: &[String]) -> String {
@@ -102,8 +111,8 @@ fn known(parameters: &[String]) -> String {
     }
 }
 
-/// All mistakes in a text. Shown as the compiler shows those of an attribute: message,
-/// line and column, the line with the wrong place marked, and what to write instead.
+/// All mistakes in the text of a description. Displayed like compiler errors in the attribute:
+/// message, line and column, the line with the mistake marked, and what to write instead.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct DescriptionError {
     mistakes: Vec<Mistake>,
@@ -146,7 +155,7 @@ impl DescriptionError {
         }
     }
 
-    /// Returns what is said of a text of more than `most` bytes.
+    /// Returns the error for a text of more than `most` bytes.
     pub(crate) fn too_long(most: usize) -> Self {
         let mistake = Mistake {
             line: 1,
@@ -162,7 +171,26 @@ impl DescriptionError {
         }
     }
 
-    /// Returns the mistakes in the order of the text, one or more.
+    /// Returns the error for a text that looks like the name of a file.
+    pub(crate) fn file_name(name: &str) -> Self {
+        let mistake = Mistake {
+            line: 1,
+            column: 1,
+            message: format!("`{name}` looks like the name of a file, not like a description"),
+            label: "the name of a file".to_owned(),
+            help: format!(
+                "pass the text in the file, in Python `open({name:?}).read()`, in Rust \
+                 `std::fs::read_to_string({name:?})?`"
+            ),
+        };
+        let text = format!("error: {}\nhelp: {}\n", mistake.message, mistake.help);
+        Self {
+            mistakes: vec![mistake],
+            text,
+        }
+    }
+
+    /// Returns the mistakes (at least one), in the order of the text.
     pub fn mistakes(&self) -> &[Mistake] {
         &self.mistakes
     }

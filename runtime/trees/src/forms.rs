@@ -1,4 +1,4 @@
-//! The equations of a tree in one of their forms, and what acts between its links.
+//! Equations of a tree in one of several forms, with the forces between its links.
 
 use branched_pendulum::emitted::Simd;
 use branched_pendulum::scalar::Scalar;
@@ -6,18 +6,18 @@ use branched_pendulum::system::{InRegisters, Workspace};
 use branched_pendulum::tree::{LinkEquations, RootDrive};
 
 use crate::between::Between;
-use crate::equations::{Form, GeneralEquations, RoughEquations, StraightEquations};
-use crate::ways::Ways;
+use crate::equations::{Form, GeneralEquations, NonViscousEquations, PlainEquations};
+use crate::evaluator::TreeEvaluator;
 
-/// A tree in one of the forms.
+/// Equations of a tree in one of several forms.
 #[derive(Clone, Debug)]
 enum FormEquations<T> {
-    Straight(Ways<StraightEquations, T>),
-    General(Ways<GeneralEquations, T>),
-    Rough(Ways<RoughEquations, T>),
+    Plain(TreeEvaluator<PlainEquations, T>),
+    General(TreeEvaluator<GeneralEquations, T>),
+    NonViscous(TreeEvaluator<NonViscousEquations, T>),
 }
 
-/// Actions on a tree from outside.
+/// External actions on a tree: its drive, and torques on its links.
 #[derive(Clone, Copy)]
 pub(crate) struct Acting<'a, T> {
     pub(crate) drive: Option<RootDrive<T>>,
@@ -25,8 +25,9 @@ pub(crate) struct Acting<'a, T> {
 }
 
 impl<T: Scalar> Acting<'_, T> {
-    /// Returns the torques of links. If a drive turns a tree of one link, they are the `sum`
-    /// of all: the equations know a torque of the drive on links with children alone.
+    /// Returns the external torques on the links. For a driven tree of one link, it returns `sum`,
+    /// which includes the torque of the drive, because the equations accept that torque only on
+    /// links with children.
     #[inline(always)]
     pub(crate) fn on_links<'s>(&'s self, links: usize, sum: &'s mut [T; 1]) -> Option<&'s [T]> {
         let Some(drive) = self.drive.filter(|_| links == 1) else {
@@ -43,21 +44,22 @@ impl<T: Scalar> Acting<'_, T> {
 impl<T: Scalar> FormEquations<T> {
     fn new(form: Form, parents: &[u32], rows: Vec<T>, gravity: T) -> Self {
         match form {
-            Form::Straight => Self::Straight(Ways::new(form, parents, rows, gravity)),
-            Form::General => Self::General(Ways::new(form, parents, rows, gravity)),
-            Form::Rough => Self::Rough(Ways::new(form, parents, rows, gravity)),
+            Form::Plain => Self::Plain(TreeEvaluator::new(form, parents, rows, gravity)),
+            Form::General => Self::General(TreeEvaluator::new(form, parents, rows, gravity)),
+            Form::NonViscous => Self::NonViscous(TreeEvaluator::new(form, parents, rows, gravity)),
         }
     }
 
     fn cast<S: Scalar>(&self, convert: impl Fn(T) -> S) -> FormEquations<S> {
         match self {
-            Self::Straight(tree) => FormEquations::Straight(tree.cast(convert)),
+            Self::Plain(tree) => FormEquations::Plain(tree.cast(convert)),
             Self::General(tree) => FormEquations::General(tree.cast(convert)),
-            Self::Rough(tree) => FormEquations::Rough(tree.cast(convert)),
+            Self::NonViscous(tree) => FormEquations::NonViscous(tree.cast(convert)),
         }
     }
 
-    /// Writes the accelerations at angles and angular velocities.
+    /// Writes the accelerations (rad/s²) at the given angles and angular velocities, under external
+    /// actions.
     #[inline(always)]
     fn accelerate(
         &self,
@@ -67,48 +69,52 @@ impl<T: Scalar> FormEquations<T> {
         alpha: &mut [T],
     ) {
         match self {
-            Self::Straight(ways) => ways.accelerate(workspace, acting, given, alpha),
-            Self::General(ways) => ways.accelerate(workspace, acting, given, alpha),
-            Self::Rough(ways) => ways.accelerate(workspace, acting, given, alpha),
+            Self::Plain(evaluator) => evaluator.accelerate(workspace, acting, given, alpha),
+            Self::General(evaluator) => evaluator.accelerate(workspace, acting, given, alpha),
+            Self::NonViscous(evaluator) => evaluator.accelerate(workspace, acting, given, alpha),
         }
     }
 
-    /// Writes accelerations in the arithmetic of `T`, compiled for the instructions that the caller
-    /// chooses.
+    /// Writes the accelerations in the arithmetic of `T`. It is compiled for the instructions that
+    /// the caller chooses.
     #[inline(always)]
     fn evaluate_under(&self, acting: Acting<'_, T>, given: [&[T]; 2], alpha: &mut [T]) {
         match self {
-            Self::Straight(ways) => ways.evaluate_under(acting, given, alpha),
-            Self::General(ways) => ways.evaluate_under(acting, given, alpha),
-            Self::Rough(ways) => ways.evaluate_under(acting, given, alpha),
+            Self::Plain(evaluator) => evaluator.evaluate_under(acting, given, alpha),
+            Self::General(evaluator) => evaluator.evaluate_under(acting, given, alpha),
+            Self::NonViscous(evaluator) => evaluator.evaluate_under(acting, given, alpha),
         }
     }
 
-    /// Returns how many numbers [`in_registers`](Self::in_registers) takes room for.
-    fn room(&self) -> usize {
+    /// Returns the length of the buffer that [`in_registers`](Self::in_registers) needs.
+    fn workspace_len(&self) -> usize {
         match self {
-            Self::Straight(ways) => ways.room(),
-            Self::General(ways) => ways.room(),
-            Self::Rough(ways) => ways.room(),
+            Self::Plain(evaluator) => evaluator.workspace_len(),
+            Self::General(evaluator) => evaluator.workspace_len(),
+            Self::NonViscous(evaluator) => evaluator.workspace_len(),
         }
     }
 
-    /// Returns the tree for registers of states at one time of a drive.
+    /// Prepares the tree for the evaluation of many states in registers, at one time of a drive.
     #[inline(always)]
     fn in_registers<R: Simd<T>>(
         &self,
         drive: Option<RootDrive<T>>,
-        room: &mut [T],
+        buffer: &mut [T],
     ) -> impl InRegisters<R> {
         match self {
-            Self::Straight(ways) => OneOf::First(ways.in_registers(drive, room)),
-            Self::General(ways) => OneOf::Second(OneOf::First(ways.in_registers(drive, room))),
-            Self::Rough(ways) => OneOf::Second(OneOf::Second(ways.in_registers(drive, room))),
+            Self::Plain(evaluator) => OneOf::First(evaluator.in_registers(drive, buffer)),
+            Self::General(evaluator) => {
+                OneOf::Second(OneOf::First(evaluator.in_registers(drive, buffer)))
+            }
+            Self::NonViscous(evaluator) => {
+                OneOf::Second(OneOf::Second(evaluator.in_registers(drive, buffer)))
+            }
         }
     }
 }
 
-/// The equations of a tree, with the springs and the friction between its links.
+/// Equations of a tree, with the springs and friction between its links.
 #[derive(Clone, Debug)]
 pub(crate) struct Equations<T> {
     links: usize,
@@ -140,13 +146,13 @@ impl<T: Scalar> Equations<T> {
         }
     }
 
-    /// What acts between links.
+    /// Returns the springs and friction between the links.
     pub(crate) fn between(&self) -> &Between<T> {
         &self.between
     }
 
-    /// Returns what acts, with the torques between links among those from outside; they stand in
-    /// `numbers`.
+    /// Returns the external actions, with the torques of springs and friction between links added;
+    /// these are computed in the buffer `numbers`.
     #[inline(always)]
     pub(crate) fn all_acting<'a>(
         &self,
@@ -163,7 +169,8 @@ impl<T: Scalar> Equations<T> {
         Acting { torques, ..acting }
     }
 
-    /// Writes the accelerations at angles and angular velocities.
+    /// Writes the accelerations (rad/s²) at the given angles and angular velocities, under external
+    /// actions.
     #[inline(always)]
     pub(crate) fn accelerate(
         &self,
@@ -184,8 +191,8 @@ impl<T: Scalar> Equations<T> {
         self.form.accelerate(workspace, acting, given, alpha);
     }
 
-    /// Gives the accelerations in the arithmetic of `T`, compiled for the instructions that the
-    /// caller chooses.
+    /// Computes the accelerations in the arithmetic of `T`, compiled for the instructions that the
+    /// caller chooses, and passes each to a closure.
     #[inline(always)]
     pub(crate) fn evaluate(
         &self,
@@ -200,7 +207,8 @@ impl<T: Scalar> Equations<T> {
         });
     }
 
-    /// Writes accelerations under torques, likewise.
+    /// Writes the accelerations under external torques, in the arithmetic of `T`. It is compiled
+    /// for the instructions that the caller chooses.
     #[inline(always)]
     pub(crate) fn evaluate_under(&self, acting: Acting<'_, T>, given: [&[T]; 2], alpha: &mut [T]) {
         let mut numbers = Vec::new();
@@ -208,20 +216,20 @@ impl<T: Scalar> Equations<T> {
         self.form.evaluate_under(acting, given, alpha);
     }
 
-    /// Returns how many numbers [`in_registers`](Self::in_registers) takes room for.
-    pub(crate) fn room(&self) -> usize {
-        self.form.room()
+    /// Returns the length of the buffer that [`in_registers`](Self::in_registers) needs.
+    pub(crate) fn workspace_len(&self) -> usize {
+        self.form.workspace_len()
     }
 
-    /// Returns the tree for registers of states at one time of a drive.
+    /// Prepares the tree for the evaluation of many states in registers, at one time of a drive.
     #[inline(always)]
     pub(crate) fn in_registers<R: Simd<T>>(
         &self,
         drive: Option<RootDrive<T>>,
-        room: &mut [T],
+        buffer: &mut [T],
     ) -> impl InRegisters<R> {
         match self.between.is_empty() {
-            true => OneOf::First(self.form.in_registers(drive, room)),
+            true => OneOf::First(self.form.in_registers(drive, buffer)),
             false => OneOf::Second(CoupledAtOneTime {
                 equations: self.cast(R::splat),
                 drive: drive.map(|drive| drive.map(R::splat)),
@@ -230,7 +238,8 @@ impl<T: Scalar> Equations<T> {
     }
 }
 
-/// Hands the angles and velocities of links to a function of slices, and its results on.
+/// Adapts a function of slices to callers that use closures: copies angles and velocities to
+/// slices, calls `write`, and passes each result to `alpha`.
 #[inline(always)]
 fn through_slices<T: Scalar>(
     links: usize,
@@ -252,7 +261,7 @@ fn through_slices<T: Scalar>(
     }
 }
 
-/// One of two forms in registers.
+/// A value of one of two types, for evaluation in registers.
 pub(crate) enum OneOf<A, B> {
     First(A),
     Second(B),
@@ -273,9 +282,9 @@ impl<R, A: InRegisters<R>, B: InRegisters<R>> InRegisters<R> for OneOf<A, B> {
     }
 }
 
-/// A tree whose constants are registers, with its drive at one time.
+/// Tree whose constants have been converted to registers, with its drive at one time.
 pub(crate) struct AtOneTime<E, R> {
-    pub(crate) ways: Ways<E, R>,
+    pub(crate) evaluator: TreeEvaluator<E, R>,
     pub(crate) drive: Option<RootDrive<R>>,
 }
 
@@ -288,14 +297,21 @@ impl<E: LinkEquations, R: Scalar> InRegisters<R> for AtOneTime<E, R> {
         alpha: impl FnMut(usize, R),
     ) {
         let (drive, torques) = (self.drive, None);
-        through_slices(self.ways.links(), theta, omega, alpha, |given, results| {
-            let acting = Acting { drive, torques };
-            self.ways.evaluate_under(acting, given, results);
-        });
+        through_slices(
+            self.evaluator.links(),
+            theta,
+            omega,
+            alpha,
+            |given, results| {
+                let acting = Acting { drive, torques };
+                self.evaluator.evaluate_under(acting, given, results);
+            },
+        );
     }
 }
 
-/// A tree with what acts between its links, whose constants are registers, likewise.
+/// Tree with forces between its links whose constants have been converted to registers, with its
+/// drive at one time.
 struct CoupledAtOneTime<R> {
     equations: Equations<R>,
     drive: Option<RootDrive<R>>,

@@ -1,10 +1,10 @@
 //! Pendulum trees that are described while a program runs.
 //!
-//! The attribute `branched_pendulum` derives the equations of one tree when a program is
-//! compiled. Here a text in the attribute's own grammar becomes a tree at once, without a
-//! compiler and without Symbolica: [`PendulumTree::parse`]. The equations are those that
-//! the compiler derived and wrote for one link with all its properties left open; they are
-//! part of this crate, and the runtime takes them through any tree.
+//! The attribute `branched_pendulum` derives the equations of one tree when a program is compiled.
+//! [`PendulumTree::parse`] instead creates a tree at run time, from a text in the grammar of the
+//! attribute, without a compiler and without Symbolica. It uses equations that the compiler has
+//! derived for one link with arbitrary properties; they are part of this crate, and the runtime
+//! evaluates them along any tree.
 //!
 //! A tree is a [`Model`](branched_pendulum::Model), and has the traits that compiled models have:
 //! accelerations, energies, positions, forces, torques from outside, links that are held, canonical
@@ -22,11 +22,19 @@ mod drive;
 mod energies;
 mod equations;
 mod error;
+#[cfg(feature = "strips")]
+mod evaluator;
+#[cfg(not(feature = "strips"))]
+#[path = "evaluator_by_link.rs"]
+mod evaluator;
 #[cfg(feature = "identification")]
 mod family;
 mod forms;
 mod in_phase;
+mod line_points;
+mod lineage;
 mod model;
+mod normal_form;
 mod numbers;
 mod observables;
 mod parametric;
@@ -36,20 +44,18 @@ mod rows;
 mod scales;
 mod series;
 mod signal_series;
+mod stiffness;
 mod symmetric;
 mod text;
 mod thermal;
 mod tree;
-#[cfg(feature = "strips")]
-mod ways;
-#[cfg(not(feature = "strips"))]
-#[path = "ways_by_link.rs"]
-mod ways;
 
-pub use branched_pendulum_codegen::scene::strength_unit;
+pub use branched_pendulum_codegen::scene::{Lineage, strength_unit};
 pub use description::TreeDescription;
 pub use error::{DescriptionError, Mistake, TreeError};
 pub use in_phase::{DifferenceGrowth, InPhaseTree};
+pub use line_points::LinePoint;
+pub use normal_form::TreeNormalForm;
 pub use observables::Observable;
 pub use parametric::{DescribedNode, EquationsOfMotion, ParameterUse};
 pub use tree::PendulumTree;

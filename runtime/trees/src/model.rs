@@ -1,4 +1,4 @@
-//! Trees as models: what compiled ones do, by the same names.
+//! Implementations of the traits of compiled models for trees that are read at run time.
 
 use branched_pendulum::emitted::{Simd, no_answer};
 use branched_pendulum::scalar::Scalar;
@@ -61,14 +61,14 @@ impl<T: Scalar> Pendulum<T> for PendulumTree<T> {
         self.accelerate(workspace, self.acting(time, None), [theta, omega], alpha);
     }
 
-    fn room(&self) -> usize {
-        self.equations.room()
+    fn workspace_len(&self) -> usize {
+        self.equations.workspace_len()
     }
 
     #[inline(always)]
-    fn in_registers<R: Simd<T>>(&self, time: T, room: &mut [T]) -> impl InRegisters<R> {
+    fn in_registers<R: Simd<T>>(&self, time: T, buffer: &mut [T]) -> impl InRegisters<R> {
         self.equations
-            .in_registers(self.acting(time, None).drive, room)
+            .in_registers(self.acting(time, None).drive, buffer)
     }
 }
 

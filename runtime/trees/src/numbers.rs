@@ -1,21 +1,23 @@
-//! Links in numbers: the quantities of a description at values of its parameters, in some
-//! 106 bits, so that what is formed of them is rounded once.
+//! Constants of links as numbers: the quantities of a description for given parameters, in about
+//! 106 bits, so that results computed from them are rounded only once.
 
 use branched_pendulum::ParameterError;
 use branched_pendulum::emitted::{
     LinkBody, free_link, require_downward, require_finite, require_magnitude, require_non_negative,
     require_positive, require_upward,
 };
+use branched_pendulum::friction::FrictionLaw;
 use branched_pendulum::scalar::{Double, Scalar};
 use branched_pendulum::spring_dampers::SpringDamper;
 use branched_pendulum_codegen::scene::{
-    FrictionPlace, Layout, Link, LinkId, Magnitudes, NEGLIGIBLE, Offset, PairRun, PassiveTorques,
-    Quantity, QuantityAtom, RationalExpression, Scene, Sign,
+    self, FrictionContact, Layout, Link, LinkId, Magnitudes, NEGLIGIBLE, Offset, PairRun,
+    PassiveTorques, Quantity, QuantityAtom, RationalExpression, Scene, Sign,
 };
 
 use crate::error::TreeError;
 
-/// A link. SI units; places are along the link and across it.
+/// Constants of a link, in SI units. Points are given by their components along the link and across
+/// it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct LinkNumbers<S = Double> {
     pub(crate) parent: Option<usize>,
@@ -25,6 +27,24 @@ pub(crate) struct LinkNumbers<S = Double> {
     pub(crate) pivot: [S; 2],
     pub(crate) end: [S; 2],
     pub(crate) passive: PassiveTorques<S>,
+}
+
+impl<S> LinkNumbers<S> {
+    /// Converts all numbers with `convert`.
+    pub(crate) fn map<R>(self, convert: impl Fn(S) -> R) -> LinkNumbers<R>
+    where
+        S: Copy,
+    {
+        LinkNumbers {
+            parent: self.parent,
+            mass: convert(self.mass),
+            inertia: convert(self.inertia),
+            com: self.com.map(&convert),
+            pivot: self.pivot.map(&convert),
+            end: self.end.map(&convert),
+            passive: self.passive.map(|own| convert(*own)),
+        }
+    }
 }
 
 /// The value of a quantity.
@@ -41,7 +61,7 @@ pub(crate) fn value<S: Scalar>(quantity: &Quantity, parameters: &[S]) -> S {
     })
 }
 
-/// The value of an expression, given those of its atoms.
+/// Returns the value of an expression, given the values of its atoms (parameters).
 pub(crate) fn evaluate<A, S: Scalar>(
     expression: &RationalExpression<A>,
     atom: &impl Fn(&A) -> S,
@@ -80,7 +100,7 @@ fn power<S: Scalar>(base: S, exponent: u32) -> S {
     result
 }
 
-/// Checks what a description requires of its parameters.
+/// Checks that the parameters satisfy the conditions of a description, such as positive masses.
 pub(crate) fn check(scene: &Scene, parameters: &[Double]) -> Result<(), TreeError> {
     for (parameter, value) in scene.parameters.iter().zip(parameters) {
         let what = || format!("parameter `{}`", parameter.name);
@@ -95,7 +115,7 @@ pub(crate) fn check(scene: &Scene, parameters: &[Double]) -> Result<(), TreeErro
             text,
         } = requirement.magnitudes;
         let checked = require_magnitude("", value, [least, largest], text);
-        let what = || requirement.what_of(&scene.parameters);
+        let what = || requirement.describe_value(&scene.parameters);
         checked.map_err(|error| refusal(what(), &error))?;
     }
     Ok(())
@@ -120,10 +140,11 @@ fn refusal(what: String, error: &ParameterError) -> TreeError {
     }
 }
 
-/// The links of a scene, parents before children; in generations those of the whole tree.
+/// Returns the links of a scene, parents before children. For a tree described by generations these
+/// are all links of the whole tree.
 ///
 /// # Errors
-/// A number that is not finite, and a link that can turn without kinetic energy.
+/// [`TreeError`] if a number is not finite, or if a link can turn without kinetic energy.
 pub(crate) fn links(scene: &Scene, parameters: &[Double]) -> Result<Vec<LinkNumbers>, TreeError> {
     let own = scene.links.iter().map(|link| numbers(link, parameters));
     let own: Vec<LinkNumbers> = own.collect();
@@ -143,53 +164,54 @@ pub(crate) fn links(scene: &Scene, parameters: &[Double]) -> Result<Vec<LinkNumb
             requirement: "positive",
         });
     }
-    Ok(in_places(scene, &own))
+    Ok(of_whole_tree(scene, &own))
 }
 
-/// The same links, in numbers that are taken as they are.
+/// Returns the constants of the links for parameters that are not checked.
 pub(crate) fn links_as_given<S: Scalar>(scene: &Scene, parameters: &[S]) -> Vec<LinkNumbers<S>> {
     let own = scene.links.iter().map(|link| numbers(link, parameters));
-    in_places(scene, &own.collect::<Vec<_>>())
+    of_whole_tree(scene, &own.collect::<Vec<_>>())
 }
 
-fn in_places<S: Scalar>(scene: &Scene, own: &[LinkNumbers<S>]) -> Vec<LinkNumbers<S>> {
-    let places = places(scene).into_iter();
-    let links = places.filter_map(|Place { link, parent, .. }| {
+fn of_whole_tree<S: Scalar>(scene: &Scene, own: &[LinkNumbers<S>]) -> Vec<LinkNumbers<S>> {
+    let places = link_copies(scene).into_iter();
+    let links = places.filter_map(|LinkCopy { link, parent, .. }| {
         let numbers = *own.get(link)?;
         Some(LinkNumbers { parent, ..numbers })
     });
     links.collect()
 }
 
-/// A link of the whole tree.
-pub(crate) struct Place {
+/// A link of the whole tree, and the link of the scene that it is a copy of.
+pub(crate) struct LinkCopy {
     /// Index of the link in the scene.
     pub(crate) link: usize,
-    /// The parent's index in the whole tree.
+    /// Index of the parent in the whole tree; `None` for the root.
     pub(crate) parent: Option<usize>,
-    /// Number of the link among the copies below the parent, from 1, where there are several.
+    /// Number of the link among the copies under the same parent, counted from 1; `None` if there
+    /// is only one.
     pub(crate) copy: Option<usize>,
 }
 
-/// The links of the whole tree. In generations these are copies of one link of each, in the
-/// order of trees by rule: copy c under link i of a generation of n links is number c n + i
-/// of the next one.
-pub(crate) fn places(scene: &Scene) -> Vec<Place> {
+/// Returns the links of the whole tree. If the scene has one link per generation, these are its
+/// copies, in the order of rule-based trees: copy c under link i of a generation of n links is
+/// number c n + i of the next one.
+pub(crate) fn link_copies(scene: &Scene) -> Vec<LinkCopy> {
     let links = scene.links.iter().enumerate();
     let Layout::Generations { branching, .. } = scene.layout else {
-        let places = links.map(|(link, own)| Place {
+        let places = links.map(|(link, own)| LinkCopy {
             link,
             parent: own.parent.map(|LinkId(parent)| parent),
             copy: None,
         });
         return places.collect();
     };
-    let mut places: Vec<Place> = Vec::new();
+    let mut places: Vec<LinkCopy> = Vec::new();
     let (mut above, mut count) = (0, 1);
     for (link, _) in links {
         let start = places.len();
         let copies = if link == 0 { 1 } else { branching };
-        places.extend((0..copies * count).map(|index| Place {
+        places.extend((0..copies * count).map(|index| LinkCopy {
             link,
             parent: (link > 0).then_some(above + index % count),
             copy: (copies > 1).then_some(index / count + 1),
@@ -199,11 +221,11 @@ pub(crate) fn places(scene: &Scene) -> Vec<Place> {
     places
 }
 
-/// Names of the links, in the same order: those of copies end with their own numbers and
-/// those of the copies that they hang in.
+/// Returns the names of the links, in the same order. The name of a copy ends with its number and
+/// the numbers of the copies that it hangs from.
 pub(crate) fn names(scene: &Scene) -> Vec<String> {
     let mut suffixes: Vec<String> = Vec::new();
-    let names = places(scene).into_iter().map(|place| {
+    let names = link_copies(scene).into_iter().map(|place| {
         let above = place.parent.and_then(|parent| suffixes.get(parent));
         let mut suffix = above.cloned().unwrap_or_default();
         if let Some(copy) = place.copy {
@@ -217,9 +239,9 @@ pub(crate) fn names(scene: &Scene) -> Vec<String> {
     names.collect()
 }
 
-/// Springs and friction between the links of a scene that are not parent and child, in numbers
-/// that are taken as they are: of those that stand side by side the first one, and how many
-/// there are.
+/// Returns the springs and friction between links of a scene that are not parent and child, for
+/// parameters that are not checked. Of each run of consecutive identical ones it returns the first,
+/// and their number.
 pub(crate) fn spring_dampers<S: Scalar>(
     scene: &Scene,
     parameters: &[S],
@@ -229,7 +251,7 @@ pub(crate) fn spring_dampers<S: Scalar>(
         let passive = spring_damper
             .torques
             .map(|quantity| value(quantity, parameters));
-        let law = passive.law(FrictionPlace::Joint);
+        let law = passive.law(FrictionContact::Joint);
         let is_viscous = spring_damper.torques.is_viscous();
         let runs = scene.pair_runs(&spring_damper.ends).into_iter();
         found.extend(runs.map(|PairRun { first, count }| {
@@ -238,12 +260,21 @@ pub(crate) fn spring_dampers<S: Scalar>(
                 spring: passive.spring,
                 rest: passive.rest,
                 friction: passive.friction,
-                law: (!is_viscous).then_some([law.coulomb, law.quadratic, law.width]),
+                law: (!is_viscous).then(|| self::law(*law)),
             };
             (first, count)
         }));
     }
     found
+}
+
+/// Converts a friction law of a scene to the type used at run time.
+pub(crate) fn law<S: Scalar>(law: scene::FrictionLaw<S>) -> FrictionLaw<S> {
+    FrictionLaw {
+        coulomb: law.coulomb,
+        quadratic: law.quadratic,
+        width: law.width,
+    }
 }
 
 fn numbers<S: Scalar>(link: &Link, parameters: &[S]) -> LinkNumbers<S> {

@@ -1,11 +1,11 @@
-//! Quantities of the user's own, by `observe(...)`, and their rates.
+//! Observables: quantities that the user defines by `observe(...)`, and their rates.
 
 use std::collections::BTreeMap;
 
 use branched_pendulum::scalar::{Double, Dual, Scalar};
 use branched_pendulum::sectors::{Normalisation, Sectors};
 use branched_pendulum::system::Workspace;
-use branched_pendulum::transfer::{Given, NonConservative, SymmetricTree};
+use branched_pendulum::transfer::{NonConservative, StateInput, SymmetricTree};
 use branched_pendulum::translational::TranslationalSpringDampers;
 use branched_pendulum_codegen::scene::{
     CoordinateIndex, Function, LinkId, Observed, ObservedAtom, Scene, Variable, VariableKind,
@@ -16,12 +16,12 @@ use crate::numbers::{self, evaluate};
 use crate::symmetric::unchecked;
 use crate::tree::PendulumTree;
 
-/// A quantity that a description defines by `observe(NAME = EXPRESSION)`, of one tree.
+/// A quantity of one tree that its description defines by `observe(NAME = EXPRESSION)`.
 ///
 /// # Examples
 ///
 /// ```
-/// use branched_pendulum::transfer::Given;
+/// use branched_pendulum::transfer::StateInput;
 /// use branched_pendulum_trees::PendulumTree;
 ///
 /// let tree = PendulumTree::parse(
@@ -36,7 +36,7 @@ use crate::tree::PendulumTree;
 ///
 /// // The paper's H_d, and W: of a tree without friction and drive the rate of H_d.
 /// let (theta, omega) = ([0.4, 0.3, -0.2], [1.0, -2.0, 0.5]);
-/// let given = Given::Absolute { theta: &theta, omega: &omega };
+/// let given = StateInput::Absolute { theta: &theta, omega: &omega };
 /// let symmetric = tree.symmetric()?;
 /// let mut energies = [[0.0; 2]; 2];
 /// let workspace = &mut branched_pendulum::system::Workspace::new();
@@ -68,8 +68,8 @@ impl PendulumTree<f64> {
     /// Returns the observable with that name.
     ///
     /// # Errors
-    /// [`TreeError::UnknownObservable`], and [`TreeError::Constant`] for one that asks for
-    /// constants between copies that differ.
+    /// [`TreeError::UnknownObservable`] if there is none, and [`TreeError::Constant`] if it uses
+    /// constants of copies that differ.
     pub fn observable(&self, name: &str) -> Result<Observable, TreeError> {
         let scene = &self.description().scene;
         let mut observables = scene.observables.iter();
@@ -102,9 +102,10 @@ impl PendulumTree<f64> {
 }
 
 impl Observable {
-    /// Returns the value at a state; NaN for slices of another length than there are links.
+    /// Returns the value of the observable at a state; NaN if a slice does not have one number per
+    /// link.
     #[must_use]
-    pub fn value(&self, given: Given<'_, f64>) -> f64 {
+    pub fn value(&self, given: StateInput<'_, f64>) -> f64 {
         let Some([theta, omega]) = self.absolute(given) else {
             return f64::NAN;
         };
@@ -112,10 +113,11 @@ impl Observable {
         self.at((&self.symmetric, springs), [&theta, &omega])
     }
 
-    /// Returns the rate along the motion under all forces, at a time of the drive: the part of
-    /// first order in dual numbers. NaN for slices of another length than there are links.
+    /// Returns the rate of change of the observable along the motion under all forces, at a time
+    /// (s) of the drive, computed with dual numbers. NaN if a slice does not have one number per
+    /// link.
     #[must_use]
-    pub fn rate(&self, time: f64, given: Given<'_, f64>) -> f64 {
+    pub fn rate(&self, time: f64, given: StateInput<'_, f64>) -> f64 {
         let Some([theta, omega]) = self.absolute(given) else {
             return f64::NAN;
         };
@@ -123,9 +125,9 @@ impl Observable {
         self.changing([along(&theta, &omega), along(&omega, &alpha)])
     }
 
-    /// Returns the part of the rate that is due to friction and drag.
+    /// Returns the part of the rate of change that is caused by friction and drag.
     #[must_use]
-    pub fn friction_rate(&self, given: Given<'_, f64>) -> f64 {
+    pub fn friction_rate(&self, given: StateInput<'_, f64>) -> f64 {
         let Some([theta, omega]) = self.absolute(given) else {
             return f64::NAN;
         };
@@ -146,7 +148,8 @@ impl Observable {
         self.changing([along(&theta, &still), along(&omega, &alpha)])
     }
 
-    /// The part of first order.
+    /// Returns the derivative of the observable, given angles and velocities with their
+    /// derivatives.
     fn changing(&self, [theta, omega]: [Vec<Dual<f64, 1>>; 2]) -> f64 {
         let [rate] = self
             .at((&self.moving, &self.moving_springs), [&theta, &omega])
@@ -154,8 +157,9 @@ impl Observable {
         rate
     }
 
-    /// Angles and angular velocities.
-    fn absolute(&self, given: Given<'_, f64>) -> Option<[Vec<f64>; 2]> {
+    /// Returns angles and angular velocities of a state; `None` if a slice does not have one number
+    /// per link.
+    fn absolute(&self, given: StateInput<'_, f64>) -> Option<[Vec<f64>; 2]> {
         let symmetric = &self.symmetric;
         let mut found = [(); 2].map(|()| vec![0.0; symmetric.links()]);
         let [theta, omega] = &mut found;
@@ -167,14 +171,15 @@ impl Observable {
             .then_some(found)
     }
 
-    /// The value of a tree with its straight springs.
+    /// Returns the value of the observable for a tree with straight springs, at the given angles
+    /// and velocities.
     fn at<S: Scalar>(
         &self,
         (tree, springs): (&SymmetricTree<S>, &TranslationalSpringDampers<S>),
         [theta, omega]: [&[S]; 2],
     ) -> S {
         let (workspace, plain) = (&mut Workspace::new(), Normalisation::Plain);
-        let given = Given::Absolute { theta, omega };
+        let given = StateInput::Absolute { theta, omega };
         let zeros = vec![S::from_f64(0.0); theta.len()];
         let [mut coordinates, mut rates, mut momenta, mut absolute] =
             [(); 4].map(|()| zeros.clone());
@@ -207,7 +212,8 @@ fn along(values: &[f64], rates: &[f64]) -> Vec<Dual<f64, 1>> {
     pairs.map(moving).collect()
 }
 
-/// Values of all symbols: angles, velocities and momenta, of links and of symmetric coordinates.
+/// Values of all symbols in the expression: angles, velocities and momenta, of links and of
+/// symmetric coordinates.
 struct Values<'a, S> {
     absolute: [&'a [S]; 3],
     symmetric: [&'a [S]; 3],
@@ -260,7 +266,7 @@ impl<S: Scalar> Values<'_, S> {
     }
 }
 
-/// Constants of the model by their names there; not those between copies that differ.
+/// Returns the constants of the model by name, except those of copies that differ.
 fn constants(
     scene: &Scene,
     parameters: &[Double],
@@ -312,7 +318,7 @@ fn constants(
     Ok(constants)
 }
 
-/// A constant in the expression that is not among these.
+/// Returns a constant that the expression uses but that is not among `constants`, if there is one.
 fn unknown(value: &Observed, constants: &BTreeMap<String, f64>) -> Option<String> {
     value.atoms().into_iter().find_map(|atom| match atom {
         ObservedAtom::Constant(name) => (!constants.contains_key(name)).then(|| name.clone()),

@@ -1,5 +1,5 @@
-//! Descriptions as families: equations of motion as functions of their parameters, and what the
-//! parameters are of.
+//! Descriptions as families of trees: equations of motion as functions of the parameters, and what
+//! each parameter is used for.
 
 use branched_pendulum::scalar::{Double, Scalar};
 use branched_pendulum::system::{Ode, Workspace};
@@ -19,8 +19,8 @@ use crate::rows;
 use crate::scales::springs_across_scales;
 use crate::tree::PendulumTree;
 
-/// Equations of motion of a tree in the links' angles, in numbers `T`: the state is the angles
-/// (rad), followed by the angular velocities (rad/s).
+/// Equations of motion of a tree in the links' angles, with constants of type `T`. The state is the
+/// angles (rad), followed by the angular velocities (rad/s).
 #[derive(Clone, Debug)]
 pub struct EquationsOfMotion<T> {
     links: usize,
@@ -60,32 +60,50 @@ pub enum ParameterUse {
     Gravity,
     /// A mass.
     Mass,
-    /// A place of a centre of mass, of a pivot, of an end, or where a straight spring is tied.
+    /// The position of a centre of mass, a pivot or an end, or the attachment point of a straight
+    /// spring.
     Place,
     /// A moment of inertia.
     Inertia,
-    /// Viscous friction, in a pivot or against the air.
+    /// Viscous friction in a pivot, or drag against the air.
     ViscousFriction,
     /// Coulomb friction.
     CoulombFriction,
-    /// Friction that grows with the square of the rate.
+    /// Friction that grows with the square of the velocity.
     QuadraticFriction,
-    /// A spring's stiffness, or its angle or length at rest, or the strength of a repulsion, or the
-    /// width of a law of friction.
+    /// Stiffness of a spring, its rest angle or rest length, the strength of a repulsion, or the
+    /// width of a friction law.
     Joint,
     /// The drive.
     Drive,
 }
 
-/// A node of a description, with the links that are made of it.
+impl ParameterUse {
+    /// Returns true if the parameter is used as a coefficient of friction.
+    #[must_use]
+    pub fn is_friction(&self) -> bool {
+        match self {
+            Self::ViscousFriction | Self::CoulombFriction | Self::QuadraticFriction => true,
+            Self::Gravity
+            | Self::Mass
+            | Self::Place
+            | Self::Inertia
+            | Self::Joint
+            | Self::Drive => false,
+        }
+    }
+}
+
+/// Node of a description, with the links that are created from it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct DescribedNode {
-    /// Name of the node: `child` of the links `child_1` and `child_2`.
+    /// Name of the node: `child` for the links `child_1` and `child_2`.
     pub name: String,
-    /// The links, in the order of the angles: one, or all copies.
+    /// Indices of the links created from the node, in the order of the angles: one link, or all
+    /// copies.
     pub links: Vec<usize>,
-    /// Parameters of the viscous friction in their pivots.
+    /// Names of the parameters that give the viscous friction in the pivots of these links.
     pub friction: Vec<String>,
 }
 
@@ -93,7 +111,7 @@ impl TreeDescription {
     /// Returns the nodes of the description, in the order of their first links.
     pub fn nodes(&self) -> Vec<DescribedNode> {
         let mut nodes: Vec<DescribedNode> = Vec::new();
-        for (index, place) in numbers::places(&self.scene).into_iter().enumerate() {
+        for (index, place) in numbers::link_copies(&self.scene).into_iter().enumerate() {
             let Some(link) = self.scene.links.get(place.link) else {
                 continue;
             };
@@ -119,8 +137,8 @@ impl TreeDescription {
     }
 
     /// Returns the clauses of straight springs, as in `between(a, b)`, one for each of
-    /// [`translational_spring_dampers`](PendulumTree::translational_spring_dampers): that of
-    /// siblings as often as there are two of them.
+    /// [`translational_spring_dampers`](PendulumTree::translational_spring_dampers). The clause of
+    /// springs between siblings is repeated for each pair of siblings.
     pub fn straight_springs(&self) -> impl Iterator<Item = &str> {
         let lines = self.scene.lines().into_iter();
         lines.filter_map(|line| {
@@ -129,8 +147,8 @@ impl TreeDescription {
         })
     }
 
-    /// Returns the clauses of springs that belong to no scale, as in `between(a, b)`: with one of
-    /// them a tree has no energies by scale.
+    /// Returns the clauses of springs that do not belong to a single scale, as in `between(a, b)`.
+    /// A tree with such a spring has no energies by scale.
     pub fn springs_across_scales(&self) -> impl Iterator<Item = &str> {
         springs_across_scales(&self.scene)
     }
@@ -140,13 +158,13 @@ impl TreeDescription {
         numbers::names(&self.scene)
     }
 
-    /// Returns the link that each hangs from; of the root none.
+    /// Returns the parent of each link, as an index; `None` for the root.
     pub fn parents(&self) -> Vec<Option<usize>> {
-        let places = numbers::places(&self.scene).into_iter();
+        let places = numbers::link_copies(&self.scene).into_iter();
         places.map(|place| place.parent).collect()
     }
 
-    /// Returns what a parameter is of; nothing for a name that is no parameter.
+    /// Returns what a parameter is used for; empty if there is no such parameter.
     pub fn uses_of(&self, name: &str) -> Vec<ParameterUse> {
         use ParameterUse::{
             CoulombFriction, Drive, Gravity, Inertia, Joint, Mass, Place, QuadraticFriction,
@@ -205,11 +223,11 @@ impl TreeDescription {
         uses.map(|(of, _)| of).collect()
     }
 
-    /// Returns the equations of motion for a value of each parameter in their order, in SI
-    /// units, taken as they are. The values may be any numbers: of dual ones come the
-    /// derivatives with respect to the parameters.
+    /// Returns the equations of motion for the given values of the parameters, in order and in SI
+    /// units. Values are not checked. They can be of any scalar type; with dual numbers, results
+    /// include derivatives with respect to the parameters.
     ///
-    /// Of a value that is lacking all rates are NaN.
+    /// If a value is missing, all rates are NaN.
     ///
     /// # Examples
     ///
@@ -248,8 +266,8 @@ impl TreeDescription {
         }
     }
 
-    /// Returns the tree for a value of each parameter in their order, in SI units, taken as they
-    /// are: what [`tree`](Self::tree) refuses, such as friction that drives, is not looked at.
+    /// Returns the tree for the given values of the parameters, in order and in SI units. Values
+    /// that [`tree`](Self::tree) would reject, such as negative friction, are accepted.
     ///
     /// # Errors
     /// [`TreeError::MissingValues`] for fewer values than there are parameters.
@@ -262,8 +280,8 @@ impl TreeDescription {
     }
 }
 
-/// Returns whether quantities of straight springs have that property: where they are tied, what
-/// their dampers take, and what stores their energy.
+/// Returns three flags: true if quantities with the property `is_one` occur in the attachment
+/// points of straight springs, in their dampers, and in their energies.
 fn straight_uses(
     all: &[DescribedTranslationalSpringDamper],
     is_one: impl Fn(&Quantity) -> bool,
@@ -271,13 +289,14 @@ fn straight_uses(
     let stored = all.iter().flat_map(|own| &own.potentials);
     let mut stored = stored.flat_map(|own| own.quantities());
     [
-        all.iter().any(|own| own.places().into_iter().any(&is_one)),
+        all.iter()
+            .any(|own| own.end_components().into_iter().any(&is_one)),
         all.iter().any(|own| is_one(&own.friction)),
         stored.any(|(_, quantity, _)| is_one(quantity)),
     ]
 }
 
-/// Returns whether a constant in the drive's signals is one; nothing else of them can be asked for.
+/// Returns true if a constant in the functions of the drive has the property `is_one`.
 fn is_in_drive(scene: &Scene, is_one: impl Fn(&Quantity) -> bool) -> bool {
     let found = std::cell::Cell::new(false);
     if let Some(drive) = &scene.drive {

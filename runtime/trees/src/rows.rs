@@ -1,5 +1,5 @@
-//! Constants of the equations: the moments of each link about its pivot, with the links
-//! without children that hang from it counted as points at their pivots.
+//! Constants of the equations: the moments of each link about its pivot. Child links that have no
+//! children themselves are included as point masses at their pivots.
 
 use branched_pendulum::scalar::{Double, Scalar};
 use branched_pendulum::system::LinkProperties;
@@ -7,49 +7,52 @@ use branched_pendulum_codegen::scene::PassiveTorques;
 
 use crate::carried::{Carried, carried};
 #[cfg(feature = "strips")]
-use crate::equations::HeldRow;
-use crate::equations::{ByRuleRow, Form, GeneralRow, RoughRow, StraightRow};
+use crate::equations::PrescribedRow;
+use crate::equations::{ByRuleRow, Form, GeneralRow, NonViscousRow, PlainRow};
 use crate::numbers::LinkNumbers;
 
 impl Form {
-    /// Returns the shortest form that knows all that the links have.
+    /// Returns the shortest form that supports all properties of the links.
     pub(crate) fn of(links: &[LinkNumbers], is_driven: bool) -> Self {
-        match (are_rough(links), are_straight(links) && !is_driven) {
-            (true, _) => Self::Rough,
+        match (
+            have_non_viscous_friction(links),
+            are_plain(links) && !is_driven,
+        ) {
+            (true, _) => Self::NonViscous,
             (false, false) => Self::General,
-            (false, true) => Self::Straight,
+            (false, true) => Self::Plain,
         }
     }
 
-    /// Returns the constants of the equations, a row for each link.
+    /// Returns the constants of the equations, one row for each link.
     pub(crate) fn rows<S: Scalar>(self, links: &[LinkNumbers<S>], carries: &[bool]) -> Vec<S> {
         let moments = moments(links, carries).into_iter();
         let rows = moments.zip(links);
         match self {
-            Self::Straight => {
+            Self::Plain => {
                 let rows = rows.zip(attachments(links));
-                let rows = rows.flat_map(|((row, _), place)| row.straight(place).into_array());
+                let rows = rows.flat_map(|((row, _), place)| row.plain(place).into_array());
                 rows.collect()
             }
             Self::General => rows
                 .flat_map(|(row, link)| row.general(link).into_array())
                 .collect(),
-            Self::Rough => rows
-                .flat_map(|(row, link)| row.rough(link).into_array())
+            Self::NonViscous => rows
+                .flat_map(|(row, link)| row.non_viscous(link).into_array())
                 .collect(),
         }
     }
 }
 
 /// Returns true if some friction is not viscous.
-pub(crate) fn are_rough(links: &[LinkNumbers]) -> bool {
+pub(crate) fn have_non_viscous_friction(links: &[LinkNumbers]) -> bool {
     let zero = Double::from_f64(0.0);
     let laws = links.iter().flat_map(|link| &link.passive.laws);
     laws.into_iter()
         .any(|law| law.coulomb != zero || law.quadratic != zero)
 }
 
-fn are_straight(links: &[LinkNumbers]) -> bool {
+fn are_plain(links: &[LinkNumbers]) -> bool {
     let zero = Double::from_f64(0.0);
     let places = attachments(links);
     links.iter().all(|link| {
@@ -66,7 +69,7 @@ fn are_straight(links: &[LinkNumbers]) -> bool {
     })
 }
 
-/// The place of the pivot of each link's last child, along the link.
+/// Returns, for each link, the distance along it from its pivot to that of its last child.
 fn attachments<S: Scalar>(links: &[LinkNumbers<S>]) -> Vec<S> {
     let mut places = vec![S::from_f64(0.0); links.len()];
     for link in links {
@@ -77,21 +80,22 @@ fn attachments<S: Scalar>(links: &[LinkNumbers<S>]) -> Vec<S> {
     places
 }
 
-/// Moments of a link: those of the derived balance of one link (`docs/pipeline.md`),
-/// M = m (d² + e²) + I + σ (ℓ² + w²), h = m d + σ ℓ, h⊥ = m e + σ w, S = m + σ.
+/// Moments of a link, from the derived equations of one link (`docs/pipeline.md`): M = m (d² + e²) + I
+/// + σ (ℓ² + w²), h = m d + σ ℓ, h⊥ = m e + σ w, S = m + σ.
 #[derive(Clone, Copy, Debug)]
 struct Moments<S> {
     inertia: S,
     moment: [S; 2],
     mass: S,
-    /// h/M and h⊥/M of a link without children.
+    /// h/M and h⊥/M of a link without children; zero for others.
     gain: [S; 2],
     inverse_inertia: S,
 }
 
 impl<S: Scalar> Moments<S> {
-    /// Returns the constants of the straight equations; `place` is that of the children.
-    fn straight(self, place: S) -> StraightRow<S> {
+    /// Returns the constants of [`Form::Plain`]; `place` is the distance along the link from its
+    /// pivot to that of its children.
+    fn plain(self, place: S) -> PlainRow<S> {
         let Self {
             inertia,
             moment: [moment, _],
@@ -99,7 +103,7 @@ impl<S: Scalar> Moments<S> {
             gain: [gain_along, _],
             inverse_inertia,
         } = self;
-        StraightRow {
+        PlainRow {
             inertia,
             moment,
             mass,
@@ -109,7 +113,7 @@ impl<S: Scalar> Moments<S> {
         }
     }
 
-    /// Returns the constants of the general equations.
+    /// Returns the constants of [`Form::General`].
     fn general(self, link: &LinkNumbers<S>) -> GeneralRow<S> {
         let ([along, across], passive) = (link.pivot, &link.passive);
         GeneralRow {
@@ -130,11 +134,11 @@ impl<S: Scalar> Moments<S> {
         }
     }
 
-    /// Returns the constants of the equations of all kinds of friction.
-    fn rough(self, link: &LinkNumbers<S>) -> RoughRow<S> {
+    /// Returns the constants of [`Form::NonViscous`], which includes all kinds of friction.
+    fn non_viscous(self, link: &LinkNumbers<S>) -> NonViscousRow<S> {
         let ([along, across], passive) = (link.pivot, &link.passive);
         let [joint, ground] = &passive.laws;
-        RoughRow {
+        NonViscousRow {
             inertia: self.inertia,
             moment: self.moment[0],
             lateral_moment: self.moment[1],
@@ -157,12 +161,12 @@ impl<S: Scalar> Moments<S> {
         }
     }
 
-    /// Returns the constants of the equations of links that may be held.
+    /// Returns the constants of the equations of links whose motion may be prescribed.
     #[cfg(feature = "strips")]
-    fn held(self, link: &LinkNumbers<S>) -> HeldRow<S> {
+    fn prescribed(self, link: &LinkNumbers<S>) -> PrescribedRow<S> {
         let ([along, across], passive) = (link.pivot, &link.passive);
         let [joint, ground] = &passive.laws;
-        HeldRow {
+        PrescribedRow {
             inertia: self.inertia,
             moment: self.moment[0],
             lateral_moment: self.moment[1],
@@ -185,8 +189,8 @@ impl<S: Scalar> Moments<S> {
 }
 
 impl Moments<Double> {
-    /// Returns the constants of the equations of trees by rule, with those of energies;
-    /// children hang at `place`.
+    /// Returns the constants of the equations and energies of a tree by rule; `place` is the
+    /// position of the children's pivot on the link.
     fn by_rule(
         self,
         link: &LinkNumbers,
@@ -235,7 +239,7 @@ impl Moments<Double> {
     }
 }
 
-/// The links' parents, and which of the links have children.
+/// Returns the links' parents, and for each link whether it has children.
 pub(crate) fn parents<S>(links: &[LinkNumbers<S>]) -> (Vec<u32>, Vec<bool>) {
     let mut carries = vec![false; links.len()];
     let parents = links.iter().map(|link| {
@@ -243,7 +247,7 @@ pub(crate) fn parents<S>(links: &[LinkNumbers<S>]) -> (Vec<u32>, Vec<bool>) {
         if let (Some(carries), Some(_)) = (carries.get_mut(parent), link.parent) {
             *carries = true;
         }
-        // They are fewer than 2¹⁶.
+        // Fits: the number of links is below 2¹⁶.
         parent as u32
     });
     (parents.collect(), carries)
@@ -282,23 +286,25 @@ fn moments<S: Scalar>(links: &[LinkNumbers<S>], carries: &[bool]) -> Vec<Moments
     rows
 }
 
-/// Returns the constants of the equations of links that may be held, a row for each link.
+/// Returns the constants of the equations of links whose motion may be prescribed, in one row for
+/// each link.
 #[cfg(feature = "strips")]
-pub(crate) fn held(links: &[LinkNumbers], carries: &[bool]) -> Vec<Double> {
+pub(crate) fn prescribed(links: &[LinkNumbers], carries: &[bool]) -> Vec<Double> {
     let rows = moments(links, carries).into_iter().zip(links);
-    rows.flat_map(|(row, link)| row.held(link).into_array())
+    rows.flat_map(|(row, link)| row.prescribed(link).into_array())
         .collect()
 }
 
-/// Links of one generation, all alike.
+/// A generation of identical links.
 pub(crate) struct Generation {
-    /// One of them.
+    /// Index of one of these links.
     pub(crate) link: usize,
-    /// Place of its children, along the link and across it.
+    /// Position of its children's pivot, along the link and across it.
     pub(crate) place: [Double; 2],
 }
 
-/// Rows of the equations of trees by rule, for each generation from the root on.
+/// Returns the constants of the equations of trees by rule, in one row for each generation,
+/// beginning with the root.
 pub(crate) fn by_rule(
     links: &[LinkNumbers],
     carries: &[bool],
@@ -314,7 +320,7 @@ pub(crate) fn by_rule(
     rows.flat_map(ByRuleRow::into_array).collect()
 }
 
-/// Rows of a [`PropertyTable`](branched_pendulum::tree::PropertyTable).
+/// Returns the rows of a [`PropertyTable`](branched_pendulum::tree::PropertyTable).
 pub(crate) fn properties(links: &[LinkNumbers]) -> Vec<Double> {
     let rows = links.iter().flat_map(|link| {
         let properties = LinkProperties {

@@ -3,17 +3,18 @@
 use branched_pendulum::scalar::{Double, Scalar};
 use branched_pendulum::spring_dampers::SpringDamper;
 use branched_pendulum::system::TaylorPendulum;
-use branched_pendulum::taylor::{Quad, RoughFriction, SeriesForm, SeriesLink, SeriesTree};
+use branched_pendulum::taylor::{NonViscousFriction, Quad, SeriesForm, SeriesLink, SeriesTree};
 
 use crate::between::Between;
 use crate::carried::carried;
-use crate::numbers::LinkNumbers;
-use crate::rows::are_rough;
+use crate::numbers::{self, LinkNumbers};
+use crate::rows::have_non_viscous_friction;
 use crate::tree::{PendulumTree, constant};
 
-/// Returns the constants of links as the recurrences take them: in units of the last link's
-/// moment of inertia and of the distance from which it hangs, so that one of each is exact.
-/// Weights are at gravity, or where there is a drive at a gravity of one.
+/// Returns the constants of the links for the Taylor recurrences. They are in units of the last
+/// link's moment of inertia and of the distance from its parent's pivot to its own, so that one
+/// constant of each kind is exact. Weights are for the given gravity or, if the tree has a drive,
+/// for a gravity of 1.
 pub(crate) fn series_of<T: Scalar>(
     links: &[LinkNumbers],
     between: &Between<Double>,
@@ -51,9 +52,7 @@ pub(crate) fn series_of<T: Scalar>(
         spring: own.spring * unit,
         rest: own.rest,
         friction: own.friction * unit,
-        law: own
-            .law
-            .map(|[coulomb, quadratic, width]| [coulomb * unit, quadratic * unit, width]),
+        law: own.law.map(|law| law.times(unit)),
     };
     let spring_dampers = between.torsional.iter();
     let spring_dampers = spring_dampers.map(|own| units(own).map(constant));
@@ -64,7 +63,7 @@ pub(crate) fn series_of<T: Scalar>(
         .with_lines(lines.collect())
 }
 
-/// What the tree has beside links that hang and swing.
+/// Returns the properties of the tree that need additional terms in the recurrences.
 fn form_of(links: &[LinkNumbers]) -> SeriesForm {
     let zero = Double::from_f64(0.0);
     SeriesForm {
@@ -78,32 +77,30 @@ fn form_of(links: &[LinkNumbers]) -> SeriesForm {
     }
 }
 
-/// The laws of friction that are not linear, with torques in this unit.
-fn laws_of<T: Scalar>(links: &[LinkNumbers], unit: Double) -> Vec<RoughFriction<T>> {
-    let zero = Double::from_f64(0.0);
-    let laws = links.iter().enumerate().filter(|_| are_rough(links));
-    let laws = laws.flat_map(|(link, own)| {
-        let [joint, ground] = own.passive.laws;
-        let law = |other, [coulomb, quadratic, width]: [Double; 3]| RoughFriction {
+/// Returns the nonlinear friction laws, with torques in this unit.
+fn laws_of<T: Scalar>(links: &[LinkNumbers], unit: Double) -> Vec<NonViscousFriction<T>> {
+    if !have_non_viscous_friction(links) {
+        return Vec::new();
+    }
+    let laws = links.iter().enumerate().flat_map(|(link, own)| {
+        let others = [own.parent, None];
+        let laws = own.passive.laws.map(numbers::law).into_iter().zip(others);
+        let laws = laws.filter(|(law, _)| !law.is_none());
+        laws.map(move |(law, other)| NonViscousFriction {
             link,
             other,
-            coulomb: constant(coulomb * unit),
-            quadratic: constant(quadratic * unit),
-            width: constant(width),
-        };
-        let in_joint = [joint.coulomb, joint.quadratic] != [zero; 2];
-        let on_link = ground.quadratic != zero;
-        let in_joint =
-            in_joint.then(|| law(own.parent, [joint.coulomb, joint.quadratic, joint.width]));
-        let on_link = on_link.then(|| law(None, [zero, ground.quadratic, ground.width]));
-        in_joint.into_iter().chain(on_link)
+            law: law.times(unit).map(constant),
+        })
     });
     laws.collect()
 }
 
 impl<T: Scalar> TaylorPendulum<T> for PendulumTree<T> {
     fn taylor_workspace(&self, order: usize) -> usize {
-        let drive = self.drive.as_ref().map_or(0, |drive| drive.room(order));
+        let drive = self
+            .drive
+            .as_ref()
+            .map_or(0, |drive| drive.workspace_len(order));
         self.series.workspace(order) + drive
     }
 
@@ -119,10 +116,10 @@ impl<T: Scalar> TaylorPendulum<T> for PendulumTree<T> {
         let order = (coefficients.len() / (2 * self.names().len()).max(1)).saturating_sub(1);
         let (mut orders, mut rest) = (None, work);
         if let Some(drive) = &self.drive {
-            let Some((room, work)) = rest.split_at_mut_checked(drive.room(order)) else {
+            let Some((buffer, work)) = rest.split_at_mut_checked(drive.workspace_len(order)) else {
                 return coefficients.fill(T::from_f64(f64::NAN));
             };
-            (orders, rest) = (Some(drive.series(time, order, room)), work);
+            (orders, rest) = (Some(drive.series(time, order, buffer)), work);
         }
         // Once: it is long where it is inlined.
         self.series

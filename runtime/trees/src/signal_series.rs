@@ -1,10 +1,10 @@
-//! Functions of time as series in powers of the time.
+//! Functions of time as power series.
 
 use branched_pendulum::scalar::Scalar;
 use branched_pendulum::taylor::Quad;
 use branched_pendulum_codegen::scene::{RationalExpression, Signal, SignalAtom, TimeFunction};
 
-/// The first coefficients of a series, four in each quad.
+/// The first coefficients of a series, four in each SIMD quad.
 struct Coefficients<'a, T> {
     quads: &'a mut [Quad<T>],
     count: usize,
@@ -41,7 +41,8 @@ impl<T: Scalar> Coefficients<'_, T> {
         }
     }
 
-    /// Σ a\[j\] b\[k−j\] from the last order on, which no lower one needs.
+    /// Computes the product Σ a\[j\] b\[k−j\] of two series in place, beginning with the highest
+    /// order, since no order depends on higher ones.
     fn multiply(&mut self, other: &Coefficients<'_, T>) {
         for k in (0..self.count).rev() {
             let zero = T::from_f64(0.0);
@@ -58,7 +59,7 @@ impl<T: Scalar> Coefficients<'_, T> {
         }
     }
 
-    /// a = q b, solved for q order by order.
+    /// Solves a = q b for the series q in place, order by order.
     fn divide(&mut self, other: &Coefficients<'_, T>) {
         for k in 0..self.count {
             let own = self.at(k);
@@ -67,7 +68,8 @@ impl<T: Scalar> Coefficients<'_, T> {
         }
     }
 
-    /// Sine and cosine of an angle: k s\[k\] = Σ j a\[j\] c\[k−j\], and likewise for the cosine.
+    /// Writes the series of the sine s and the cosine c of an angle a: k s\[k\] = Σ j a\[j\]
+    /// c\[k−j\], and k c\[k\] = −Σ j a\[j\] s\[k−j\].
     fn turn(
         angle: &Coefficients<'_, T>,
         sine: &mut Coefficients<'_, T>,
@@ -91,28 +93,28 @@ impl<T: Scalar> Coefficients<'_, T> {
     }
 }
 
-/// Number of quads that hold so many coefficients.
+/// Returns the number of quads for `count` coefficients.
 pub(crate) fn quads(count: usize) -> usize {
     count.div_ceil(4)
 }
 
-/// Returns how many series are worked in to form that of a signal, beside it.
-pub(crate) fn series_beside<V>(signal: &Signal<V>) -> usize {
-    let of_all = |parts: &[Signal<V>]| parts.iter().map(series_beside).max().unwrap_or(0);
+/// Returns the number of additional series that the computation of a signal needs as a buffer.
+pub(crate) fn buffer_series<V>(signal: &Signal<V>) -> usize {
+    let of_all = |parts: &[Signal<V>]| parts.iter().map(buffer_series).max().unwrap_or(0);
     match signal {
-        RationalExpression::Atom(SignalAtom::Function(_, angle)) => 2.max(1 + series_beside(angle)),
+        RationalExpression::Atom(SignalAtom::Function(_, angle)) => 2.max(1 + buffer_series(angle)),
         RationalExpression::Atom(_) => 0,
         RationalExpression::Sum(parts) | RationalExpression::Product(parts) => 1 + of_all(parts),
         RationalExpression::Quotient(above, below) => {
-            series_beside(above).max(1 + series_beside(below))
+            buffer_series(above).max(1 + buffer_series(below))
         }
-        RationalExpression::Power(base, _) => 1 + series_beside(base),
-        RationalExpression::Negative(value) => series_beside(value),
+        RationalExpression::Power(base, _) => 1 + buffer_series(base),
+        RationalExpression::Negative(value) => buffer_series(value),
     }
 }
 
-/// Writes the first `count` coefficients of a signal about a time. `beside` is worked in:
-/// [`series_beside`].
+/// Writes the first `count` Taylor coefficients of a signal about a time. `beside` is a buffer for
+/// [`buffer_series`] series.
 pub(crate) fn series<T: Scalar>(
     signal: &Signal<T>,
     time: T,

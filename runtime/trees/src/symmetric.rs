@@ -1,4 +1,5 @@
-//! Symmetric coordinates of trees with copies, and the energy transfers between their sectors.
+//! Symmetric coordinates of trees with identical branches, and the energy transfers between their
+//! sectors.
 
 use branched_pendulum::emitted::no_answer;
 use branched_pendulum::scalar::{Double, Scalar};
@@ -12,14 +13,14 @@ use branched_pendulum_codegen::scene::{self, Group, Layout, Link, LinkId, Orbit,
 use crate::between::Between;
 use crate::description::TreeDescription;
 use crate::error::TreeError;
-use crate::numbers::{self, LinkNumbers, Place};
+use crate::numbers::{self, LinkCopy, LinkNumbers};
 use crate::tree::PendulumTree;
 
-/// What copies make of a tree, whatever its constants.
+/// Symmetry of a tree with identical branches; it does not depend on the values of the constants.
 #[derive(Debug)]
 pub(crate) struct Symmetry {
     pub(crate) sectors: Vec<Sector>,
-    /// Of each node whose copies differ all links.
+    /// For each node whose copies differ, all its links.
     unequal: Vec<Vec<usize>>,
     /// The copies under each link.
     groups: Vec<Group>,
@@ -51,13 +52,14 @@ impl Symmetry {
     }
 }
 
-/// A scene that has one link of each generation, with all links; none for other scenes. Links
-/// stand as [`numbers::links`] has them, and names are those of a scene written out.
+/// Returns a scene with all links, if the given scene has only one link of each generation; `None`
+/// for other scenes. The links are in the order of [`numbers::links`], and the names are those of a
+/// scene that is written out.
 fn written_out(scene: &Scene) -> Option<Scene> {
     let Layout::Generations { .. } = scene.layout else {
         return None;
     };
-    let (places, names) = (numbers::places(scene), numbers::names(scene));
+    let (places, names) = (numbers::link_copies(scene), numbers::names(scene));
     let mut whole = scene.clone();
     whole.links.clear();
     whole.groups.clear();
@@ -71,7 +73,7 @@ fn written_out(scene: &Scene) -> Option<Scene> {
     // Of each link the group of its children.
     let mut groups: Vec<Option<usize>> = vec![None; places.len()];
     for (index, (place, name)) in places.iter().zip(names).enumerate() {
-        let Place { link, parent, copy } = *place;
+        let LinkCopy { link, parent, copy } = *place;
         let own = scene.links.get(link)?;
         whole.orbits.get_mut(link)?.links.push(LinkId(index));
         if let (Some(_), Some(parent)) = (copy, parent) {
@@ -99,8 +101,8 @@ fn written_out(scene: &Scene) -> Option<Scene> {
 }
 
 impl TreeDescription {
-    /// Returns the tree in its symmetric coordinates with values for its parameters, in any
-    /// numbers: energies of its sectors, and the transfers W between them.
+    /// Returns the tree in its symmetric coordinates with values for its parameters, for any type
+    /// of numbers. It computes energies of sectors and the transfers W between them.
     ///
     /// # Errors
     /// As [`tree`](Self::tree), [`TreeError::NoCopies`], [`TreeError::CoupledSectors`] and
@@ -145,7 +147,7 @@ fn symmetric<T: Scalar>(
         .ok_or(TreeError::NoCopies)
 }
 
-/// The tree with the sectors that it has, be they that of the means alone, but for its straight
+/// Returns the tree with all its sectors, even if these are only the means. Does not check straight
 /// springs.
 pub(crate) fn unchecked<T: Scalar>(
     description: &TreeDescription,
@@ -173,8 +175,6 @@ pub(crate) fn unchecked<T: Scalar>(
 }
 
 fn rigid(link: &LinkNumbers) -> RigidLink<Double> {
-    // Coulomb friction acts in pivots alone.
-    let [joint, ground] = &link.passive.laws;
     RigidLink {
         parent: link.parent,
         mass: link.mass,
@@ -185,32 +185,27 @@ fn rigid(link: &LinkNumbers) -> RigidLink<Double> {
         rest: link.passive.rest,
         friction: link.passive.friction,
         drag: link.passive.drag,
-        laws: [
-            joint.coulomb,
-            joint.quadratic,
-            joint.width,
-            ground.quadratic,
-            ground.width,
-        ],
+        laws: link.passive.laws.map(numbers::law),
     }
 }
 
 impl PendulumTree<f64> {
-    /// Returns the tree in its symmetric coordinates: energies of its sectors, and the transfers
-    /// W between them, exact, by orders of the amplitude, as published.
+    /// Returns the tree in its symmetric coordinates. It computes energies of sectors and the
+    /// transfers W between them: exactly, by orders in the amplitude, and in the published form.
     ///
     /// # Errors
-    /// [`TreeError::NoCopies`] where nothing in the tree is a copy of anything,
-    /// [`TreeError::CoupledSectors`] and [`TreeError::StraightSpring`] where springs leave sectors
-    /// no energies of their own.
+    /// [`TreeError::NoCopies`] if the tree has no identical branches, [`TreeError::CoupledSectors`]
+    /// and [`TreeError::StraightSpring`] if springs couple sectors so that these have no separate
+    /// energies.
     ///
     /// # Examples
     ///
-    /// W into the antiphase mode along a motion of the paper's tree: the rate of its energy H_d.
+    /// The transfer W into the antiphase mode during a motion of the paper's tree is the rate of
+    /// change of its energy H_d.
     ///
     /// ```
     /// use branched_pendulum::prelude::*;
-    /// use branched_pendulum::transfer::Given;
+    /// use branched_pendulum::transfer::StateInput;
     /// use branched_pendulum::{Transfer, system::Workspace};
     /// use branched_pendulum_trees::{PendulumTree, TreeError};
     ///
@@ -232,7 +227,7 @@ impl PendulumTree<f64> {
     /// let method = Dop853::new(Options::with_tolerance(1e-12));
     /// method.sample(&AbsoluteAngles(&tree), &start, &times, |_, state| {
     ///     let (theta, omega) = state.split_at(3);
-    ///     let given = Given::Absolute { theta, omega };
+    ///     let given = StateInput::Absolute { theta, omega };
     ///     symmetric.energies(&mut workspace, given, &mut energies);
     ///     symmetric.exact_transfers(&mut workspace, given, &mut w);
     ///     let [kinetic, potential] = energies[d];
@@ -254,14 +249,14 @@ impl PendulumTree<f64> {
     }
 }
 
-/// The sectors of the tree's copies; that of the means alone where there are no copies.
+/// Sectors of the tree's copies; without copies, only the sector of the means.
 impl<T: Scalar> Sectors for PendulumTree<T> {
     fn sectors(&self) -> &[Sector] {
         &self.described.symmetry().sectors
     }
 }
 
-/// Accelerations of the links, taken to symmetric coordinates: the system
+/// Accelerations of the links, converted to symmetric coordinates: the system
 /// [`SymmetricCoordinates`](branched_pendulum::system::SymmetricCoordinates()).
 impl<T: Scalar> Computes<SymmetricAccelerations, T> for PendulumTree<T> {
     type On<S: Scalar> = PendulumTree<S>;
@@ -294,7 +289,8 @@ impl<T: Scalar> Computes<SymmetricAccelerations, T> for PendulumTree<T> {
 }
 
 impl<T: Scalar> PendulumTree<T> {
-    /// Takes coordinates to angles, and what `accelerate` writes for them to coordinates.
+    /// Converts coordinates to angles, calls `accelerate`, and converts the accelerations that it
+    /// writes to coordinates.
     #[inline(always)]
     fn accelerate_symmetric(
         &self,

@@ -1,10 +1,11 @@
-//! Trees in thermal equilibrium: velocities at a temperature, and shares of the scales.
+//! Trees in thermal equilibrium: random velocities for a temperature, and the mean energies of the
+//! scales.
 //!
-//! At temperature T the momenta given the angles are normal with the covariance kT M(θ), and so
-//! the angular velocities with kT M⁻¹. The kinetic energy of scale s, ½ ωᵀ K_s ω with Σ K_s = M,
-//! has the mean ½ kT tr K_s M⁻¹ at these angles (T. Konishi and T. Yanagita, arXiv:0811.4637 and
-//! 2111.11677: generalised equipartition). Off the in-phase configuration that is not ½ kT for
-//! each degree of freedom of the scale; the sum over all scales is ½ kT N.
+//! At temperature T the momenta for given angles are normally distributed with the covariance kT
+//! M(θ), and so are the angular velocities with kT M⁻¹. The kinetic energy of scale s, ½ ωᵀ K_s ω
+//! with Σ K_s = M, has the mean ½ kT tr K_s M⁻¹ at these angles (T. Konishi and T. Yanagita,
+//! arXiv:0811.4637 and 2111.11677: generalised equipartition). If the copies are not in phase, this
+//! is not ½ kT for each degree of freedom of the scale; the sum over all scales is ½ kT N.
 
 use std::sync::Arc;
 
@@ -17,11 +18,11 @@ use crate::error::TreeError;
 use crate::tree::PendulumTree;
 
 impl PendulumTree<f64> {
-    /// Returns the tree without friction, drag and drive: springs and gravity are left, which keep
+    /// Returns the tree without friction, drag and drive. Springs and gravity remain; they conserve
     /// the energy.
     ///
     /// # Errors
-    /// None for a tree that there is: its values are checked again.
+    /// Does not occur for an existing tree, since its values have been checked before.
     pub fn conservative(&self) -> Result<Self, TreeError> {
         let mut scene = self.description().scene.as_ref().clone();
         scene.drive = None;
@@ -41,10 +42,11 @@ impl PendulumTree<f64> {
         Self::of(TreeDescription { scene }, self.described.values().to_vec())
     }
 
-    /// Writes angular velocities (rad/s) at kT = 1 J, with the covariance M⁻¹: of momenta that
-    /// independent standard normal numbers make, `normal`, three for each link, by which the
-    /// links' bodies move as if they were free. Times √kT they are those at another temperature.
-    /// NaN for slices of other lengths. O(links).
+    /// Writes random angular velocities (rad/s) for kT = 1 J, with the covariance M⁻¹; multiply
+    /// them by √(kT) for another temperature. `normal` contains three independent standard normal
+    /// numbers for each link: the momenta that its body would have without joints, which the
+    /// function projects onto the motions that the joints allow. Writes NaN if a slice has a wrong
+    /// length. O(links).
     ///
     /// # Examples
     ///
@@ -86,8 +88,23 @@ impl PendulumTree<f64> {
         self.solve_mass(&mut Workspace::new(), theta, &momenta, omega);
     }
 
-    /// Writes M⁻¹ p: what torques p accelerate at rest, less what there is without.
-    pub(crate) fn solve_mass(
+    /// Writes M⁻¹ p: the angular velocities (rad/s) of momenta p (kg m²/s) at angles `theta`. They
+    /// are computed as the accelerations at rest under the torques p, minus those without torques.
+    /// NaN for slices of another length than there are links. O(links).
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// use branched_pendulum::system::Workspace;
+    /// use branched_pendulum_trees::PendulumTree;
+    ///
+    /// let rod = PendulumTree::parse("gravity = 9.81, rod: rod(mass = 0.3, length = 1)")?;
+    /// let mut omega = [0.0];
+    /// rod.solve_mass(&mut Workspace::new(), &[0.4], &[0.2], &mut omega);
+    /// assert!((omega[0] - 2.0).abs() < 1e-14);
+    /// # Ok::<(), branched_pendulum_trees::TreeError>(())
+    /// ```
+    pub fn solve_mass(
         &self,
         workspace: &mut Workspace<f64>,
         theta: &[f64],
@@ -103,13 +120,14 @@ impl PendulumTree<f64> {
         }
     }
 
-    /// Returns tr K_s M⁻¹ of all scales at angles `theta`: twice their mean kinetic energies at
-    /// kT = 1 J, whose sum is the number of links. `None` where the tree has no scales, or for
-    /// another number of angles. O(links²).
+    /// Returns tr K_s M⁻¹ of each scale s at the angles `theta`: twice its mean kinetic energy at
+    /// kT = 1 J. The sum over all scales is the number of links. `None` if the tree has no scales
+    /// or the number of angles is wrong. O(links²).
     ///
     /// # Examples
     ///
-    /// In phase a scale has as much as it has degrees of freedom, elsewhere not.
+    /// If all copies are in phase, the value of a scale is its number of degrees of freedom;
+    /// otherwise it is not.
     ///
     /// ```
     /// use branched_pendulum_trees::PendulumTree;
@@ -125,7 +143,8 @@ impl PendulumTree<f64> {
     /// ```
     #[must_use]
     pub fn kinetic_shares(&self, theta: &[f64]) -> Option<Vec<f64>> {
-        let (links, scales) = (self.links(), self.copies()?.len());
+        let links = self.links();
+        let scales = self.degrees_of_freedom_by_scale()?.len();
         if theta.len() != links {
             return None;
         }
@@ -134,14 +153,14 @@ impl PendulumTree<f64> {
         let mut shares = vec![0.0; scales];
         let mut unit = vec![0.0; links];
         let mut flow = vec![0.0; links];
-        // v·K_s·w = E_s(v + w) − E_s(v − w) over 2, potential energies cancel.
+        // v·K_s·w = (E_s(v + w) − E_s(v − w))/2, where potential energies cancel.
         for link in 0..links {
             unit.fill(0.0);
             if let Some(own) = unit.get_mut(link) {
                 *own = 1.0;
             }
             self.solve_mass(workspace, theta, &unit, &mut flow);
-            // Of one size, so that neither is lost beside the other.
+            // Scales both to one size, so that neither is lost to rounding.
             let size = flow.iter().fold(0.0, |size: f64, own| size.max(own.abs()));
             for sign in [1.0, -1.0] {
                 let omega = unit.iter().zip(&flow);

@@ -1,4 +1,4 @@
-//! A tree that is described while the program runs.
+//! Pendulum trees that are described at run time.
 
 use std::fmt;
 use std::hash::{DefaultHasher, Hash, Hasher};
@@ -18,20 +18,22 @@ use crate::error::TreeError;
 use crate::forms::{Acting, Equations};
 use crate::numbers::{self, LinkNumbers};
 #[cfg(feature = "strips")]
-use crate::prescribed::HeldLinks;
+use crate::prescribed::PrescribedLinks;
 use crate::rows;
-use crate::scales::ByRule;
+use crate::scales::TreeScales;
 use crate::series::series_of;
 use crate::symmetric::Symmetry;
 
-/// A pendulum tree of any shape, as a description in text states it, in numbers `T`.
+/// A pendulum tree of any shape, created at run time from a description in text, with numbers of
+/// type `T`.
 ///
-/// It is a [`Model`] like a compiled one, whose number of links no type tells:
-/// [`AbsoluteAngles(&tree)`](branched_pendulum::system::AbsoluteAngles) is its system of
-/// equations, which every method integrates and ensembles take into lanes.
+/// It is a [`Model`] like a compiled one, but its number of links is not part of its type.
+/// [`AbsoluteAngles(&tree)`](branched_pendulum::system::AbsoluteAngles) is its system of equations;
+/// all methods integrate it, and ensembles compute several states at once in vector registers.
 ///
-/// The equations are those of one link, derived and written by the compiler; a tree holds
-/// their constants. Links stand as those of a model that is compiled from the text do.
+/// The code consists of the equations of one link, which the compiler derived and wrote; a tree
+/// stores their constants. The links are in the same order as in a model that is compiled from the
+/// text.
 ///
 /// # Examples
 ///
@@ -72,20 +74,20 @@ pub struct PendulumTree<T = f64> {
     pub(crate) bodies: FormBodies<T>,
     pub(crate) properties: PropertyTable<GeneralEquations, T>,
     pub(crate) drive: Option<Courses<T>>,
-    pub(crate) rule: Option<ByRule<T>>,
+    pub(crate) scales: Option<TreeScales<T>>,
     pub(crate) series: SeriesTree<T>,
     #[cfg(feature = "strips")]
-    pub(crate) held: Option<HeldLinks<T>>,
+    pub(crate) prescribed: PrescribedLinks<T>,
 }
 
-/// Parts that trees on all scalars share.
+/// Description and symmetry, shared by a tree's versions on different scalar types.
 pub(crate) struct Described {
     description: TreeDescription,
     values: Vec<f64>,
     names: Vec<String>,
-    /// Number by which trees of other shapes differ.
+    /// Number that identifies the shape; trees of different shapes have different numbers.
     pub(crate) shape: usize,
-    /// Formed when it is asked for.
+    /// Symmetry of the tree, computed when it is first needed.
     symmetry: OnceLock<Symmetry>,
 }
 
@@ -117,13 +119,13 @@ impl fmt::Debug for Described {
 }
 
 impl PendulumTree<f64> {
-    /// Returns the tree of a description without parameters: of what stands between the
-    /// parentheses of the attribute `branched_pendulum`. For one with parameters see
+    /// Creates a tree from a description without parameters: the text that is written between the
+    /// parentheses of the attribute `branched_pendulum`. For descriptions with parameters, see
     /// [`TreeDescription`].
     ///
     /// # Errors
-    /// [`TreeError::Description`] with all mistakes, [`TreeError::MissingValues`] where it
-    /// names parameters, [`TreeError::Value`] where no pendulum can have its values.
+    /// [`TreeError::Description`] with all mistakes, [`TreeError::MissingValues`] if it contains
+    /// parameters, [`TreeError::Value`] if its values are physically impossible.
     pub fn parse(text: &str) -> Result<Self, TreeError> {
         TreeDescription::parse(text)?.tree(&[])
     }
@@ -138,7 +140,8 @@ impl<T: Scalar> PendulumTree<T> {
         Ok(Self::of_links(description, values, &links))
     }
 
-    /// Returns the tree of these links, which those values make.
+    /// Creates the tree of a description from its links, which have been computed with the
+    /// parameters `values`.
     pub(crate) fn of_links(
         description: TreeDescription,
         values: Vec<f64>,
@@ -152,13 +155,13 @@ impl<T: Scalar> PendulumTree<T> {
         let above = constant(-gravity);
         let form = Form::of(links, drive.is_some());
         let rows = in_numbers(&form.rows(links, &carries));
-        let rule = ByRule::of(scene, links, &carries, gravity);
+        let scales = TreeScales::of(scene, links, &carries, gravity);
         let between = Between::of(scene, links.len(), &parameters);
         let series = series_of(links, &between, gravity, drive.is_some());
         #[cfg(feature = "strips")]
-        let held = HeldLinks::of(scene, &parents, above, || {
-            in_numbers(&rows::held(links, &carries))
-        });
+        let prescribed = in_numbers(&rows::prescribed(links, &carries));
+        #[cfg(feature = "strips")]
+        let prescribed = PrescribedLinks::of(scene, &parents, above, &prescribed);
         let pairs = between.shape();
         let equations = Equations::new(form, &parents, rows, above, between.cast(constant));
         // All that is no constant: trees in the lanes of one share it.
@@ -191,17 +194,17 @@ impl<T: Scalar> PendulumTree<T> {
             drive: Courses::of(scene, &|quantity| {
                 constant(numbers::value(quantity, &parameters))
             }),
-            rule,
+            scales,
             series,
             #[cfg(feature = "strips")]
-            held,
+            prescribed,
         }
     }
 
-    /// Returns the tree with another value of a parameter.
+    /// Returns the tree with one parameter changed.
     ///
     /// # Errors
-    /// A name that is no parameter, and a value that no pendulum can have.
+    /// Fails if no parameter has this name, or if the value is physically impossible.
     pub fn with(&self, name: &str, value: f64) -> Result<Self, TreeError> {
         let description = self.described.description.clone();
         let place = description.place(name)?;
@@ -228,8 +231,9 @@ impl<T: Scalar> PendulumTree<T> {
         &self.described.names
     }
 
-    /// Returns the tree on other scalars: `convert` should change the type of its
-    /// constants and not their value. This is compiled once for each scalar, whatever it does.
+    /// Returns the tree on another scalar type; `convert` should change the type of its constants
+    /// but not their values. The function is compiled only once for each scalar type, even if it is
+    /// used often.
     pub(crate) fn on_scalar<S: Scalar>(&self, convert: &dyn Fn(T) -> S) -> PendulumTree<S> {
         PendulumTree {
             described: Arc::clone(&self.described),
@@ -237,16 +241,16 @@ impl<T: Scalar> PendulumTree<T> {
             bodies: self.bodies.cast(convert),
             properties: self.properties.cast(convert),
             drive: self.drive.as_ref().map(|drive| drive.cast(convert)),
-            rule: self.rule.as_ref().map(|rule| rule.cast(convert)),
+            scales: self.scales.as_ref().map(|scales| scales.cast(convert)),
             series: self.series.cast(convert),
             #[cfg(feature = "strips")]
-            held: self.held.as_ref().map(|held| held.cast(convert)),
+            prescribed: self.prescribed.cast(convert),
         }
     }
 
-    /// Returns the angular accelerations (rad/s²) at a time of the drive (s, of no account
-    /// without one), angles `theta` (rad) and angular velocities `omega` (rad/s). NaN for
-    /// slices of another length than there are links.
+    /// Returns the angular accelerations (rad/s²) at angles `theta` (rad) and angular velocities
+    /// `omega` (rad/s). `time` (s) only matters if the tree has a drive. NaN if a slice does not
+    /// have one value per link.
     #[must_use]
     pub fn accelerations(&self, time: T, theta: &[T], omega: &[T]) -> Vec<T> {
         let mut alpha = vec![T::from_f64(0.0); self.links()];
@@ -275,7 +279,7 @@ impl<T: Scalar> PendulumTree<T> {
     }
 }
 
-/// A constant in the numbers of a tree.
+/// Converts a constant to the tree's type of numbers.
 pub(crate) fn constant<T: Scalar>(value: Double) -> T {
     T::from_parts(value.high(), value.low())
 }

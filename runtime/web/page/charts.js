@@ -23,12 +23,16 @@ export class History {
   }
 }
 
-const LEFT = 52;
+/** Width (pixels) of the labels at the left. */
+export const LEFT = 60;
 const BELOW = 16;
 const ABOVE = 6;
 
 /** Height of the band in which zero stands below a logarithmic axis. */
 const ZERO = 14;
+
+/** Least and largest size of a number that is written without a power of ten: others are too wide. */
+const PLAIN = [1e-3, 1e4];
 
 const power = (exponent) => `10${[...String(exponent)].map((c) => "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"["-0123456789".indexOf(c)]).join("")}`;
 
@@ -59,15 +63,24 @@ function logarithmic(values, height) {
   return { ticks, y };
 }
 
-/** Those of numbers of either sign. */
+/** A number of one digit for a tick: 0.002, −2·10⁻⁶. */
+export function tickOf(value) {
+  const size = Math.abs(value);
+  if (size === 0 || (size > 0.99 * PLAIN[0] && size < PLAIN[1])) {
+    return String(Number(value.toPrecision(1))).replace("-", "−");
+  }
+  const [digit, exponent] = value.toExponential(0).split("e");
+  return `${digit.replace("-", "−")}·${power(Number(exponent))}`;
+}
+
+/** Ticks and the way from values to pixels of an axis of numbers of either sign. */
 function linear(values, height) {
   const largest = Math.max(...values.map(Math.abs));
   const size = 10 ** Math.floor(Math.log10(largest || 1));
   const round = [1, 2, 5, 10].map((factor) => factor * size).find((value) => value >= largest);
-  const text = (value) => String(Number(value.toPrecision(1))).replaceAll("-", "−");
   const inner = height - BELOW - ABOVE;
   const y = (value) => ABOVE + inner * (0.5 - (0.5 * value) / round);
-  return { ticks: [-round, 0, round].map((value) => ({ y: y(value), text: text(value) })), y };
+  return { ticks: [-round, 0, round].map((value) => ({ y: y(value), text: tickOf(value) })), y };
 }
 
 /** Draws the rows of a history: `lines` are { colour, dash, of(values) }. */

@@ -34,6 +34,10 @@ const FRAMES_A_POINT = 3;
 /** Frames between two rows of the table of a tree with so many links. */
 const framesARow = (links) => (links > 63 ? FRAMES_A_POINT : 1);
 
+/** Milliseconds of work from which a frame is slow, and of slow frames in a row after which the motion is paused. */
+const SLOW = 250;
+const MOST_SLOW = 500;
+
 /** Milliseconds without a change after which the map begins anew. */
 const CALM = 400;
 
@@ -52,7 +56,8 @@ const isNarrow = matchMedia("(max-width: 59.99rem)").matches;
 for (const panel of ["map-panel", "tree-panel", "accuracy-panel"]) element(panel).open = !isNarrow;
 
 let pendulum;
-// Names of the links, what they hang from, and their colours.
+// Names of the links, what they hang from, their colours, if the tree before had others, and
+// milliseconds of its last slow frames.
 let links;
 let method = ["dop853", 1e-6];
 let chosen = 0;
@@ -100,6 +105,10 @@ const accuracy = new AccuracyPanel((name, setting) => {
 const tree = new TreePanel({
   replace: replaceTree,
   change: changeParameter,
+  typed() {
+    // Other numbers of the same links go on as they move.
+    if (links.areOthers) release();
+  },
   begin(example) {
     beginning = beginningOf(example);
     apply(beginning, true);
@@ -125,9 +134,9 @@ function state() {
 function apply(next, again = false) {
   const isKnown = next.text === tree.text && [...next.values].every(([name, value]) => tree.values.get(name) === value);
   if (!isKnown && !tree.write(next.text, next.values) && !pendulum) {
-    const message = element("message").textContent;
-    apply(beginningOf(examples[0]), true);
-    element("message").textContent = message;
+    const { told } = tree;
+    apply({ ...beginningOf(examples[0]), release: next.release }, true);
+    tree.tell(told);
     element("description").value = next.text;
     element("tree-panel").open = true;
     return;
@@ -176,7 +185,8 @@ function replaceTree(text, values) {
   pendulum = next;
   view.held = null;
   const [names, parents] = [pendulum.names(), [...pendulum.parents()]];
-  links = { names, parents, colours: coloursOf(parents) };
+  const areOthers = names.join() !== links?.names.join();
+  links = { names, parents, areOthers, slow: 0, colours: coloursOf(parents) };
   traces.begin(parents);
   element("link").replaceChildren(...names.map((name, link) => new Option(name, link)));
   energy.offer(!pendulum.has_unequal_copies());
@@ -252,6 +262,17 @@ export function frame(duration) {
   // Not both charts in one frame: it has 16 ms.
   if (frames % FRAMES_A_DRAWING === 0) drawNumbers();
   if (frames % FRAMES_A_DRAWING === FRAMES_A_DRAWING / 2) drawTransfers();
+  pauseIfSlow(performance.now() - begun);
+}
+
+/** Pauses a tree, once, whose frames take so long that the page would not answer. */
+function pauseIfSlow(work) {
+  if (links.slow >= MOST_SLOW) return;
+  links.slow = work < SLOW ? 0 : links.slow + work;
+  if (links.slow < MOST_SLOW) return;
+  run(false);
+  tell(`A frame of these ${links.names.length} links takes ${(work / 1000).toFixed(1)} s of computing here, so the motion is
+    paused. One step moves it, and Play goes on at that pace.`.replace(/\s+/g, " "));
 }
 
 /** Adds a row to the table, and a point to the curves if it is asked for. */
@@ -318,6 +339,11 @@ export function run(on) {
   element("play").textContent = on ? "Pause" : "Play";
 }
 
+/** Lets the pendulum swing if the address does not ask for a still one, nor the reader for calm. */
+function playAsAsked() {
+  run(beginning.plays && !matchMedia("(prefers-reduced-motion: reduce)").matches);
+}
+
 function branch(change) {
   try {
     tree.write(change(tree.text, links.names[chosen]));
@@ -366,6 +392,7 @@ addEventListener("keydown", (event) => {
 addEventListener("hashchange", () => {
   beginning = read(location.hash);
   apply(beginning, true);
+  playAsAsked();
 });
 
 sharing(() => {
@@ -377,7 +404,7 @@ beginning = read(location.hash);
 apply(beginning, true);
 accuracy.show(...method);
 memory.begin();
-run(beginning.plays && !matchMedia("(prefers-reduced-motion: reduce)").matches);
+playAsAsked();
 new ResizeObserver(() => {
   drawPendulum();
   drawNumbers();

@@ -1,4 +1,4 @@
-// The plane of releases as it is drawn: rates in colours, what is not determined hatched.
+// The plane of releases as it is drawn: rates in colours, chaotic points dotted, open ones hatched.
 
 import { cleared, colour } from "./canvas.js";
 import { PLANE } from "./map-plane.js";
@@ -45,48 +45,71 @@ export function releaseIn(canvas, x, y) {
   return { rest: value(PLANE.rest, (x - left) / width), root: value(PLANE.root, 1 - (y - above) / height) };
 }
 
-const tile = document.createElement("canvas");
-[tile.width, tile.height] = [8, 8];
-{
-  const context = tile.getContext("2d");
-  for (const [style, width] of [["#000000", 3.2], ["#ffffff", 1.4]]) {
-    context.strokeStyle = style;
-    context.lineWidth = width;
+/** A tile of eight pixels, in black with white inside, so that it is seen on every shade. */
+function tile(paint) {
+  const canvas = document.createElement("canvas");
+  [canvas.width, canvas.height] = [8, 8];
+  const context = canvas.getContext("2d");
+  paint(context, "#000000", 1);
+  paint(context, "#ffffff", 0.45);
+  return canvas;
+}
+
+function stripes(context, style, size) {
+  context.strokeStyle = style;
+  context.lineWidth = 3.2 * size;
+  context.beginPath();
+  for (const shift of [-8, 0, 8]) {
+    context.moveTo(shift - 1, 9);
+    context.lineTo(shift + 9, -1);
+  }
+  context.stroke();
+}
+
+function dots(context, style, size) {
+  context.fillStyle = style;
+  for (const middle of [2, 6]) {
     context.beginPath();
-    for (const shift of [-8, 0, 8]) {
-      context.moveTo(shift - 1, 9);
-      context.lineTo(shift + 9, -1);
-    }
-    context.stroke();
+    context.arc(middle, middle, 1.1 * size, 0, 7);
+    context.fill();
   }
 }
 
-/** Hatches an element as what is not determined is. */
-export function hatchOn(element) {
-  element.style.background = `${shade(0.75)} url(${tile.toDataURL()})`;
+/** Patterns over points whose rate is not determined, with their strength. */
+const PATTERNS = {
+  chaotic: { tile: tile(dots), alpha: 0.4 },
+  open: { tile: tile(stripes), alpha: 0.5 },
+};
+
+/** Shows the pattern of a class on an element. */
+export function patternOn(element, own) {
+  const image = `url(${PATTERNS[own].tile.toDataURL()})`;
+  element.style.background = `${image}, ${shade(0.75)}`;
 }
 
 const cellsCanvas = document.createElement("canvas");
 [cellsCanvas.width, cellsCanvas.height] = [PLANE.columns, PLANE.rows];
 
-function drawCells(context, { cells }, alpha, isDetermined) {
+function drawCells(context, { cells }, alpha, classOf) {
   const { left, above, width, height } = inner(context.canvas);
   const own = cellsCanvas.getContext("2d");
   own.clearRect(0, 0, PLANE.columns, PLANE.rows);
   const [across, down] = [width / PLANE.columns, height / PLANE.rows];
-  const hatched = new Path2D();
+  const covered = { chaotic: new Path2D(), open: new Path2D() };
   cells.forEach((point, index) => {
     const [column, row] = [index % PLANE.columns, PLANE.rows - 1 - Math.floor(index / PLANE.columns)];
     own.fillStyle = Number.isFinite(point.rate) ? shadeOf(point.rate) : "gray";
     own.fillRect(column, row, 1, 1);
-    if (!isDetermined(point)) hatched.rect(left + column * across, above + row * down, across, down);
+    covered[classOf(point)]?.rect(left + column * across, above + row * down, across, down);
   });
   context.globalAlpha = alpha;
   context.imageSmoothingEnabled = false;
   context.drawImage(cellsCanvas, left, above, width, height);
-  context.globalAlpha = 0.5 * alpha;
-  context.fillStyle = context.createPattern(tile, "repeat");
-  context.fill(hatched);
+  for (const [own, { tile, alpha: strength }] of Object.entries(PATTERNS)) {
+    context.globalAlpha = strength * alpha;
+    context.fillStyle = context.createPattern(tile, "repeat");
+    context.fill(covered[own]);
+  }
   context.globalAlpha = 1;
 }
 
@@ -132,11 +155,11 @@ function mark(context, [x, y]) {
   }
 }
 
-/** Draws a map: its `plane` over the faint one `before` it, and the release `point`. */
-export function drawMap(canvas, { plane, before, point }, isDetermined) {
+/** Draws a map: its `plane` over the faint one `before` it, points by their class, and the release `point`. */
+export function drawMap(canvas, { plane, before, point }, classOf) {
   const { context } = cleared(canvas);
-  if (before) drawCells(context, before, 0.45, isDetermined);
-  drawCells(context, plane, 1, isDetermined);
+  if (before) drawCells(context, before, 0.45, classOf);
+  drawCells(context, plane, 1, classOf);
   axes(context, canvas);
   const { left, above, width, height } = inner(canvas);
   context.save();

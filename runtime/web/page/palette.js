@@ -10,7 +10,8 @@ const dark = matchMedia("(prefers-color-scheme: dark)");
 
 /** A colour for each link by those that they hang from (-1 for the root): `of(link, alpha)`. */
 export function coloursOf(parents) {
-  const children = parents.map((_, link) => parents.flatMap((parent, own) => (parent === link ? [own] : [])));
+  const children = parents.map(() => []);
+  parents.forEach((parent, own) => children[parent]?.push(own));
   const tints = [{ hue: 220, saturation: 12, lightness: 0, spread: SPREAD }];
   parents.forEach((_, link) => {
     children[link].forEach((child, place) => {

@@ -10,7 +10,7 @@ export function writeRelease(release) {
   for (const [name, field] of entries) field.value = release[name];
 }
 
-/** The release that is written, within the bounds of the fields; what is no number is as it was `before`. */
+/** The release that is written, within the bounds of the fields; what is not a number is as it was `before`. */
 export function readRelease(before) {
   const read = entries.map(([name, field]) => {
     const typed = field.valueAsNumber;

@@ -2,7 +2,7 @@
 // its own at once, and while a new one is computed the one before is seen through it.
 
 import { anglesOf, indexOf, PLANE } from "./map-plane.js";
-import { drawMap, hatchOn, placeIn, releaseIn, shade } from "./map-drawing.js";
+import { drawMap, patternOn, placeIn, releaseIn, shade } from "./map-drawing.js";
 import { savePicture, saveTable } from "./save.js";
 
 const element = (id) => document.getElementById(id);
@@ -13,8 +13,11 @@ const DEGREE = Math.PI / 180;
 const SPAN = 15;
 const TOLERANCE = 1e-6;
 
-/** Values that differ by more than that part between two tolerances are not determined. */
+/** Rates that differ by at most that part between two tolerances are determined. */
 const DETERMINED = 0.01;
+
+/** Growth up to the end by which a release is chaotic, if the rate is not determined: at both tolerances. */
+const CHAOTIC = 1000;
 
 /** Most workers, and most maps that are kept. */
 const MOST_WORKERS = 4;
@@ -42,8 +45,9 @@ class Plane {
     }
   }
 
-  get undetermined() {
-    return [...this.points.values()].filter((point) => !isDetermined(point)).length;
+  /** Number of the points of a class. */
+  count(own) {
+    return [...this.points.values()].filter((point) => classOf(point) === own).length;
   }
 
   get isDone() {
@@ -51,7 +55,17 @@ class Plane {
   }
 }
 
-export const isDetermined = ({ difference }) => difference <= DETERMINED;
+/**
+ * The class of a point: "determined", where two tolerances give the same rate; "chaotic", where they
+ * do not, and the difference grows a thousandfold at either of them; "open" everywhere else.
+ */
+export function classOf({ rate, difference }) {
+  if (difference <= DETERMINED) return "determined";
+  return rate * (1 - difference) * SPAN >= Math.log(CHAOTIC) ? "chaotic" : "open";
+}
+
+/** Classes as tables have them. */
+const CLASSES = ["open", "determined", "chaotic"];
 
 export class ReleaseMapPanel {
   /** `release(root, rest)` releases the tree at these angles, rad. */
@@ -69,7 +83,7 @@ export class ReleaseMapPanel {
     element("map-hint").textContent = HINT;
     const stops = Array.from({ length: 9 }, (_, index) => shade(index / 8));
     element("scale").style.background = `linear-gradient(to right, ${stops.join(", ")})`;
-    hatchOn(element("hatch"));
+    for (const own of ["chaotic", "open"]) patternOn(element(`pattern-${own}`), own);
     element("map").addEventListener("click", ({ offsetX, offsetY, target }) => {
       const { root, rest } = releaseIn(target, offsetX, offsetY);
       release(root, rest);
@@ -131,11 +145,13 @@ export class ReleaseMapPanel {
   }
 
   tell() {
-    const { points, undetermined, isDone } = this.plane;
+    const { plane } = this;
+    const { points, isDone } = plane;
     if (isDone) this.before = null;
     const left = isDone ? "" : ` of ${ALL}`;
     const faint = this.before ? " Faint: the map before the change." : "";
-    this.state = `${points.size}${left} points, ${undetermined} of them not determined: they change with the tolerance.${faint}`;
+    this.state = `${points.size}${left} points: of ${plane.count("determined")} two tolerances give the same rate;
+      ${plane.count("chaotic")} are chaotic, they grow a thousandfold at either tolerance; ${plane.count("open")} are not determined.${faint}`;
   }
 
   /** Marks a release, rad. */
@@ -153,15 +169,16 @@ export class ReleaseMapPanel {
   save() {
     const rows = [...this.plane.points.values()].map((point) => {
       const { root, rest } = anglesOf(point);
-      return [root / DEGREE, rest / DEGREE, point.rate, point.difference, isDetermined(point) ? 1 : 0];
+      return [root / DEGREE, rest / DEGREE, point.rate, point.difference, CLASSES.indexOf(classOf(point))];
     });
-    const columns = ["root (deg)", "others (deg)", "growth rate (1/s)", "relative change with tolerance", "determined"];
+    const columns = ["root (deg)", "others (deg)", "growth rate (1/s)", "relative change with tolerance",
+      "class (0 open; 1 determined; 2 chaotic)"];
     saveTable(columns, rows, "branched-pendulum-map.csv");
   }
 
   draw() {
     if (!element("map-panel").open) return;
-    drawMap(element("map"), this, isDetermined);
+    drawMap(element("map"), this, classOf);
     element("map-state").textContent = this.state;
   }
 }

@@ -1,4 +1,4 @@
-// The page's state as it stands in the address, and the steps back and forth through it.
+// The page's state in the address, and the steps back and forth through it.
 
 import { examples } from "./examples.js";
 

@@ -2,11 +2,15 @@
 
 import { parameters } from "./wasm/branched_pendulum_web.js";
 import { examples } from "./examples.js";
+import { showMessage } from "./message.js";
 
 const element = (id) => document.getElementById(id);
 
-/** Value with which a parameter begins that nothing else names, by its unit. */
-const FIRST = { kg: 0.1, m: 0.3, "m/s²": 9.81 };
+/** Value with which a parameter begins that nothing else names, by its unit: it is seen to act. */
+const FIRST = {
+  kg: 0.1, m: 0.3, "kg m²": 1e-3, "m/s²": 9.81, "": 1,
+  "N m/rad": 0.05, "N/m": 5, "N m s": 1e-4, "N s/m": 1e-3, "N m": 1e-4, "N m s²": 1e-6, "rad/s": 0.05,
+};
 
 /** Range of a slider about the value with which it begins. */
 function range(unit, value) {
@@ -33,9 +37,9 @@ const readable = (value) => Number(value.toPrecision(4)).toString();
 export class TreePanel {
   /**
    * `replace(text, values)` takes a tree and throws its mistakes, `change(name, value)` a value,
-   * `begin(example)` an example.
+   * `begin(example)` an example; `typed()` follows a tree that was typed.
    */
-  constructor({ replace, change, begin }) {
+  constructor({ replace, change, begin, typed }) {
     Object.assign(this, { replace, change });
     this.values = new Map();
     // Values of names that a text has had, for when they come again.
@@ -48,7 +52,7 @@ export class TreePanel {
     let waiting;
     element("description").addEventListener("input", (event) => {
       clearTimeout(waiting);
-      waiting = setTimeout(() => this.describe(event.target.value), 300);
+      waiting = setTimeout(() => this.describe(event.target.value) && typed(), 300);
     });
   }
 
@@ -79,12 +83,18 @@ export class TreePanel {
       this.sliders(known);
       const index = examples.findIndex((example) => example.text === text);
       element("example").value = index < 0 ? "own" : index;
-      element("message").textContent = "";
+      this.tell("");
       return true;
     } catch (error) {
-      element("message").textContent = String(error);
+      this.tell(String(error));
       return false;
     }
+  }
+
+  /** Says what is wrong with the description; nothing, if the text is empty. */
+  tell(text) {
+    this.told = text;
+    showMessage(element("message"), text);
   }
 
   sliders(known) {
@@ -125,10 +135,10 @@ export class TreePanel {
       this.change(name, value);
       this.values.set(name, value);
       this.remembered.set(name, value);
-      element("message").textContent = "";
+      this.tell("");
       return true;
     } catch (error) {
-      element("message").textContent = String(error);
+      this.tell(String(error));
       return false;
     }
   }

@@ -1,26 +1,26 @@
-//! A branch more and a branch less, in the text of a description.
+//! Adds a branch to, or removes one from, the text of a description.
 
 use std::ops::Range;
 
 use proc_macro2::{Delimiter, Group, TokenStream, TokenTree};
 use wasm_bindgen::prelude::wasm_bindgen;
 
-/// A link as it stands in a text: `name(properties) [children] * copies`, with or without a
-/// shape, children and copies.
+/// A link in a text: `name(properties) [children] * copies`, in which the shape, the children and
+/// the copies are optional.
 struct Written {
     name: String,
-    /// All of it.
+    /// The whole text.
     place: Range<usize>,
-    /// Name of the shape; the properties with their parentheses.
+    /// Name of the shape, if there is one.
     shape: Option<String>,
     properties: Range<usize>,
     children: Option<(Range<usize>, Vec<Written>)>,
-    /// The star with the number, and the number.
+    /// The text `* number` of the copies, and the number.
     copies: Option<(Range<usize>, usize)>,
 }
 
 impl Written {
-    /// Returns the links that stand side by side among tokens.
+    /// Returns all links at the top level of a list of tokens.
     fn all(tokens: TokenStream) -> Vec<Self> {
         let tokens: Vec<TokenTree> = tokens.into_iter().collect();
         let (mut rest, mut links) = (&tokens[..], Vec::new());
@@ -36,7 +36,7 @@ impl Written {
         links
     }
 
-    /// Reads a link that tokens begin with; returns it and the tokens behind.
+    /// Reads the link at the beginning of the tokens; returns it and the remaining tokens.
     fn read(tokens: &[TokenTree]) -> Option<(Self, &[TokenTree])> {
         let (TokenTree::Ident(name), rest) = tokens.split_first()? else {
             return None;
@@ -94,7 +94,7 @@ impl Written {
         self.children.as_ref().map_or(&[], |(_, links)| links)
     }
 
-    /// Finds a link and the one that it hangs from.
+    /// Finds a link by its name, and its parent.
     fn find<'a>(links: &'a [Self], above: Option<&'a Self>, name: &str) -> Option<Found<'a>> {
         links.iter().find_map(|link| match link.name == name {
             true => Some(Found { link, above }),
@@ -125,8 +125,8 @@ fn replaced(text: &str, place: Range<usize>, by: &str) -> String {
     text
 }
 
-/// Reads a text and changes it at a link, which has a name of the tree: that in the text, and
-/// the numbers of its copies.
+/// Changes a text at the link with this name in the tree, which is the name in the text followed by
+/// the numbers of the copies.
 fn changed(
     text: &str,
     name: &str,
@@ -151,11 +151,11 @@ fn changed(
     }
 }
 
-/// Returns the description with a branch more on a link: a copy more of its last child, or one
-/// like itself where it has none.
+/// Returns the description with one more branch on a link: another copy of its last child or, if it
+/// has no child, a child like itself.
 ///
 /// # Errors
-/// A text without the link, and a tree by rule.
+/// Fails if the text does not contain the link, or if the tree is given by a rule.
 #[wasm_bindgen]
 pub fn with_branch(text: &str, name: &str) -> Result<String, String> {
     changed(text, name, |text, Found { link, .. }| {
@@ -184,11 +184,12 @@ pub fn with_branch(text: &str, name: &str) -> Result<String, String> {
     })
 }
 
-/// Returns the description with a branch less: a copy less of the link, or without it and all
-/// that hangs from it where it is the only one.
+/// Returns the description with one branch less: with one copy less of the link or, if there is
+/// only one, without the link and its descendants.
 ///
 /// # Errors
-/// A text without the link, a tree by rule, and the root.
+/// Fails if the text does not contain the link, if the tree is given by a rule, or if the link is
+/// the root.
 #[wasm_bindgen]
 pub fn without_branch(text: &str, name: &str) -> Result<String, String> {
     changed(text, name, |text, Found { link, above }| {

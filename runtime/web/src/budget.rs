@@ -1,20 +1,21 @@
-//! Energies by scale, as the page is told them.
+//! Energies by scale, in the form that the web page receives.
 
 use wasm_bindgen::prelude::*;
 
-/// Energies by scale and what changes them: scale 0 is what all copies do together, scale s what
-/// those of generation s do against each other. Copies may differ, and links of one generation.
+/// Energies by scale and the powers that change them. Scale 0 is the motion that all copies have in
+/// common; scale s is the motion of the copies of generation s relative to each other. Copies, and
+/// links of one generation, may differ.
 #[wasm_bindgen(getter_with_clone)]
 #[derive(Clone, Debug, PartialEq)]
 pub struct Budget {
-    /// Energies, J: those by Parseval sum to the energy of the tree; of those from momenta that of
-    /// the paper's pendulum at scale 1 is H_d.
+    /// Energies in J. In Parseval's form, their sum is the energy of the tree; in the form computed
+    /// from momenta, the energy of scale 1 of the paper's pendulum is H_d.
     #[wasm_bindgen(readonly)]
     pub energies: Vec<f64>,
-    /// Power that each scale receives from the others, W: the transfer of that name.
+    /// Power that each scale receives from all others, in W.
     #[wasm_bindgen(readonly)]
     pub received: Vec<f64>,
-    /// Power of friction, drag, drive and the hand on each scale, W.
+    /// Power of friction, drag, drive and the user's pointer on each scale, in W.
     #[wasm_bindgen(readonly)]
     pub powers: Vec<f64>,
 }

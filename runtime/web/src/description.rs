@@ -10,7 +10,7 @@ pub struct Parameter {
     /// Name of the parameter.
     #[wasm_bindgen(readonly)]
     pub name: String,
-    /// Use of the parameter in words, with the unit behind the last comma.
+    /// Use of the parameter in words, with the unit after the last comma.
     #[wasm_bindgen(readonly)]
     pub meaning: String,
 }
@@ -18,7 +18,7 @@ pub struct Parameter {
 /// Returns the parameters of a description, in the order of the text.
 ///
 /// # Errors
-/// All mistakes in the text, each marked in its line.
+/// Lists all mistakes in the text, each marked in its line.
 #[wasm_bindgen]
 pub fn parameters(text: &str) -> Result<Vec<Parameter>, String> {
     let description = TreeDescription::parse(text).map_err(|error| error.to_string())?;
@@ -33,7 +33,7 @@ pub fn parameters(text: &str) -> Result<Vec<Parameter>, String> {
     Ok(parameters.collect())
 }
 
-/// Returns the tree of a description with values for its parameters.
+/// Creates the tree of a description with values for its parameters.
 pub(crate) fn tree(text: &str, names: &[String], values: &[f64]) -> Result<PendulumTree, String> {
     let description = TreeDescription::parse(text).map_err(|error| error.to_string())?;
     let names = names.iter().map(String::as_str);

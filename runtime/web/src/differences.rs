@@ -1,24 +1,25 @@
-//! What copies do against each other: at a release, in the energies, and in the ghost.
+//! Differences between copies: at the release, in the energies, and in the picture of the in-phase
+//! motion.
 
 use std::f64::consts::TAU;
 
 use branched_pendulum::sectors::Sectors;
 use branched_pendulum::system::Workspace;
 use branched_pendulum::transfer::{
-    EnergyDefinition, Given, NonConservative, SectorBudget, SymmetricTree,
+    EnergyDefinition, StateInput, NonConservative, SectorBudget, SymmetricTree,
 };
 use branched_pendulum_trees::{PendulumTree, TreeError};
 
 use crate::budget::Budget;
 use crate::path::down_the_tree;
 
-/// A tree with copies in its symmetric coordinates. Differences are counted by the generation of
-/// the copies that differ: scale s is what copies of generation s do against each other, scale 0
-/// what all do together.
+/// A tree with copies, in its symmetric coordinates. A scale is the generation in which copies
+/// differ: scale s is the motion of the copies of generation s relative to each other, scale 0 the
+/// motion that all copies have in common.
 #[derive(Debug)]
 pub(crate) struct Differences {
     symmetric: SymmetricTree<f64>,
-    /// The scale of each sector, and how many there are.
+    /// Scale of each sector (set of symmetric coordinates of one difference).
     scales: Vec<usize>,
     count: usize,
     workspace: Workspace<f64>,
@@ -29,8 +30,8 @@ impl Differences {
     /// Returns the differences of a tree.
     ///
     /// # Errors
-    /// [`TreeError::NoCopies`] where nothing is a copy of anything, and
-    /// [`TreeError::CoupledSectors`] where springs leave the differences no energies.
+    /// [`TreeError::NoCopies`] if the tree has no copies, and [`TreeError::CoupledSectors`] if
+    /// springs couple the differences so that these have no separate energies.
     pub(crate) fn of(tree: &PendulumTree) -> Result<Self, TreeError> {
         let symmetric = tree.symmetric()?;
         let generations = down_the_tree(tree, 0, |above, _| above + 1);
@@ -51,20 +52,21 @@ impl Differences {
         })
     }
 
-    /// Returns true if copies differ: there are no energies by Parseval then.
+    /// Returns true if copies have different properties; there are no energies in Parseval's form
+    /// then.
     pub(crate) fn are_of_unequal_copies(&self) -> bool {
         self.symmetric.has_unequal_copies()
     }
 
-    /// Returns the energies of the scales, what they receive from each other, and the powers of
-    /// what acts besides.
+    /// Returns the energies of the scales, the power that each receives from the others, and the
+    /// powers of the non-conservative torques `acting`.
     pub(crate) fn budget(
         &mut self,
         definition: EnergyDefinition,
         acting: &[NonConservative<'_, f64>],
         [theta, omega]: [&[f64]; 2],
     ) -> Budget {
-        let given = Given::Absolute { theta, omega };
+        let given = StateInput::Absolute { theta, omega };
         let sums = &mut self.budget;
         self.symmetric
             .budget(&mut self.workspace, definition, acting, given, sums);
@@ -85,8 +87,8 @@ impl Differences {
     }
 }
 
-/// Adds a difference to angles of copies in phase, at every branching: to the coordinates of
-/// every difference, so that of two copies one is turned by it and the other against it.
+/// Adds a difference to the angles of in-phase copies at every branching. It is added to every
+/// difference coordinate: of two copies, one is turned by it and the other by the opposite angle.
 pub(crate) fn set_apart(tree: &PendulumTree, difference: f64, angles: &mut [f64]) {
     let coordinates = tree
         .sectors()
@@ -106,7 +108,8 @@ pub(crate) fn set_apart(tree: &PendulumTree, difference: f64, angles: &mut [f64]
     }
 }
 
-/// Returns the angles of the in-phase motion: of copies the mean, whole turns left out.
+/// Returns the angles of the in-phase motion: copies have the mean of their angles, where full
+/// turns are ignored.
 pub(crate) fn in_phase_part(tree: &PendulumTree, theta: &[f64]) -> Vec<f64> {
     let mut angles = theta.to_vec();
     let means = tree.sectors().iter().take(1);

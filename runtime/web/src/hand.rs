@@ -1,19 +1,19 @@
-//! A hand that holds a link.
+//! Hand with which the user holds a link.
 
 use branched_pendulum::system::{LinkPoint, Model, Positions};
 use branched_pendulum_trees::PendulumTree;
 
-/// Angular frequency of the whole tree on the hand's spring, rad/s.
+/// Angular frequency of the whole tree on the hand's spring, in rad/s.
 const FREQUENCY: f64 = 16.0;
 
-/// Damping of that motion over the critical one.
+/// Ratio of the damping of that oscillation to critical damping.
 const DAMPING: f64 = 0.7;
 
-/// A spring and a damper between a point of a link and a place.
+/// A spring and a damper between a point of a link and the position of the hand.
 #[derive(Clone, Debug)]
 pub(crate) struct Hand {
     link: usize,
-    /// Part of the way from the link's pivot to its end at which the point lies.
+    /// Position of the held point between the link's pivot (0) and its end (1).
     part: f64,
     place: [f64; 2],
     /// N/m.
@@ -22,13 +22,13 @@ pub(crate) struct Hand {
     damping: f64,
 }
 
-/// Returns the point at a part of the way between two.
+/// Returns the point between two others at the fraction `part` of the distance.
 fn between(from: [f64; 2], to: [f64; 2], part: f64) -> [f64; 2] {
     [0, 1].map(|axis| from[axis] + part * (to[axis] - from[axis]))
 }
 
 impl Hand {
-    /// Holds the link by its point that is nearest to a place x, y (m). None where there is no
+    /// Holds a link at its point nearest to the position x, y (m). Returns `None` if there is no
     /// such link.
     pub(crate) fn on(
         tree: &PendulumTree,
@@ -57,22 +57,22 @@ impl Hand {
         })
     }
 
-    /// Moves the hand to a place x, y (m).
+    /// Moves the hand to the position x, y (m).
     pub(crate) fn move_to(&mut self, place: [f64; 2]) {
         self.place = place;
     }
 
-    /// Returns the point that is held and the place of the hand (m).
+    /// Returns the held point and the position of the hand, in m.
     pub(crate) fn ends(&self, tree: &PendulumTree, theta: &[f64]) -> Option<[[f64; 2]; 2]> {
         let of = |point| tree.points(point, theta).get(self.link).copied();
         let point = between(of(LinkPoint::Pivot)?, of(LinkPoint::End)?, self.part);
         Some([point, self.place])
     }
 
-    /// Returns the torques (N m) of its force on the links.
+    /// Returns the torques (N m) of the hand's force on the links.
     ///
-    /// A force on a point between pivot and end is one on each of them, in the ratio of the
-    /// distances.
+    /// A force on a point between pivot and end is replaced by forces on both, divided in inverse
+    /// proportion to the distances.
     pub(crate) fn torques(&self, tree: &PendulumTree, theta: &[f64], omega: &[f64]) -> Vec<f64> {
         let nowhere = vec![f64::NAN; tree.links()];
         let Some([point, place]) = self.ends(tree, theta) else {

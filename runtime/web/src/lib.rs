@@ -1,8 +1,8 @@
-//! Pendulum trees for the browser: what the page asks of WebAssembly.
+//! Pendulum trees for the browser: the WebAssembly functions that the web page calls.
 //!
-//! The page draws; every number on it comes from here, and here from `branched-pendulum` and
-//! `branched-pendulum-trees`. SI units; angles are absolute, in radians from the downward
-//! vertical; errors are texts for the reader.
+//! The page only draws; all its numbers are computed by this crate, with `branched-pendulum` and
+//! `branched-pendulum-trees`. SI units; angles are absolute, in radians from the downward vertical;
+//! errors are texts for the user.
 
 mod branches;
 mod budget;

@@ -7,12 +7,12 @@ use branched_pendulum_trees::PendulumTree;
 
 use crate::path::down_the_tree;
 
-/// The widest body over the reach of the tree, and over the length of its own link.
+/// Largest width of a body, relative to the reach of the tree and to the length of its link.
 const WIDEST: f64 = 0.11;
 const STOUTEST: f64 = 0.4;
 
-/// A point carries its mass at the end of a rod without: its inertia about the centre over
-/// m length² is less than this.
+/// Value of the inertia about the centre of mass, divided by m length², below which a link is drawn
+/// as a point mass at the end of a massless rod.
 const POINT: f64 = 1e-9;
 
 fn length([x, y]: [f64; 2]) -> f64 {
@@ -29,9 +29,10 @@ pub(crate) fn reach(tree: &PendulumTree) -> f64 {
     ends.fold(0.0, f64::max)
 }
 
-/// Returns the width (m) of each link and the radius (m) of the disc at its centre of mass, one
-/// of which is zero: a description has masses and no widths, so bodies are cut from one sheet,
-/// as thick as lets no body be wider than a part of the reach and of its own link.
+/// Returns the width (m) of each link and the radius (m) of the disc at its centre of mass; one of
+/// them is zero. A description has masses but no widths: all bodies are drawn as plates of one
+/// thickness, chosen so that no body is wider than a given fraction of the tree's reach and of its
+/// link's length.
 pub(crate) fn widths_and_radii(tree: &PendulumTree) -> Vec<[f64; 2]> {
     let widest = WIDEST * reach(tree);
     // Areas of a sheet of 1 kg/m², by whose number widths grow, and radii by its root.

@@ -1,9 +1,10 @@
-//! Sums along the way from the root.
+//! Sums along the path from the root.
 
 use branched_pendulum::system::{Model, Positions};
 use branched_pendulum_trees::PendulumTree;
 
-/// A number for each link, from that of the link that it hangs from and its pivot on it.
+/// Returns a value for each link; `next` computes it from the value of the parent and the position
+/// of the link's pivot on the parent.
 pub(crate) fn down_the_tree<T: Copy>(
     tree: &PendulumTree,
     root: T,

@@ -22,18 +22,18 @@ use crate::swing::{Swing, parts};
 pub struct Pendulum {
     method: AnyIntegrator<f64>,
     motion: Stepper<AnyIntegrator<f64>, RatesOnly<Swing>>,
-    /// Components in which the first two equal branches differ.
+    /// Coordinates in which the first two equal branches differ.
     copies: Option<Copies>,
-    /// Differences between copies, or why they have no energies.
+    /// Differences between copies, or the reason why they have no energies.
     differences: Result<Differences, TreeError>,
-    /// Energy at which the account of the work began, and the largest since, J.
+    /// Energy at the beginning of the energy account, in J.
     begun: f64,
     largest: f64,
     /// Evaluations before the present account.
     evaluations: u64,
 }
 
-/// The method before one is chosen.
+/// Method and tolerance that are used until the user chooses others.
 const FIRST_METHOD: (&str, f64) = ("dop853", 1e-6);
 
 fn flat(points: Vec<[f64; 2]>) -> Vec<f64> {
@@ -42,11 +42,11 @@ fn flat(points: Vec<[f64; 2]>) -> Vec<f64> {
 
 #[wasm_bindgen]
 impl Pendulum {
-    /// The tree of a description with values for its parameters (SI units), at rest with all
-    /// angles zero.
+    /// Creates the tree of a description with values for its parameters (SI units). It is at rest,
+    /// with all angles zero.
     ///
     /// # Errors
-    /// All mistakes in the text, and values that no pendulum can have.
+    /// Lists all mistakes in the text, and values that are physically impossible.
     #[wasm_bindgen(constructor)]
     pub fn new(text: &str, names: Vec<String>, values: Vec<f64>) -> Result<Self, String> {
         let tree = description::tree(text, &names, &values)?;
@@ -69,25 +69,26 @@ impl Pendulum {
         Ok(pendulum)
     }
 
-    /// Names of the links, in the order of the angles.
+    /// Returns the names of the links, in the order of the angles.
     pub fn names(&self) -> Vec<String> {
         self.tree().names().to_vec()
     }
 
-    /// The link that each hangs from; -1 for the root.
+    /// Returns the index of each link's parent; -1 for the root.
     pub fn parents(&self) -> Vec<i32> {
         let links = (0..self.tree().links()).map(|link| self.tree().properties_of(link));
         let parents = links.map(|link| link.and_then(|link| i32::try_from(link.parent?).ok()));
         parents.map(|parent| parent.unwrap_or(-1)).collect()
     }
 
-    /// Width of each link and radius of the disc at its centre (m) as they are drawn: of plates cut
-    /// from one sheet for all; a link has one of them, and zero for the other.
+    /// Returns the width of each link and the radius of the disc at its centre of mass, in m, for
+    /// drawing. All links are plates of the same thickness; each has either a width or a radius,
+    /// and zero for the other.
     pub fn widths_and_radii(&self) -> Vec<f64> {
         flat(outline::widths_and_radii(self.tree()))
     }
 
-    /// Largest distance (m) from the root's pivot that the end of a link can have.
+    /// Returns the largest distance (m) from the root's pivot that the end of a link can have.
     pub fn reach(&self) -> f64 {
         outline::reach(self.tree())
     }
@@ -102,28 +103,29 @@ impl Pendulum {
         self.theta_omega().0.to_vec()
     }
 
-    /// Angular velocities of the links, rad/s.
+    /// Returns the angular velocities of the links, in rad/s.
     pub fn rates(&self) -> Vec<f64> {
         self.theta_omega().1.to_vec()
     }
 
-    /// Pivots of the links, x and y of one after the other (m), y upwards.
+    /// Returns the pivots of the links, as x and y of one link after the other, in m, y upwards.
     pub fn pivots(&self) -> Vec<f64> {
         flat(self.tree().points(LinkPoint::Pivot, self.theta_omega().0))
     }
 
-    /// Centres of mass of the links, likewise.
+    /// Returns the centres of mass of the links, in the same form as the pivots.
     pub fn centres(&self) -> Vec<f64> {
         flat(self.tree().points(LinkPoint::Centre, self.theta_omega().0))
     }
 
-    /// Ends of the links, likewise.
+    /// Also ends of the links.
     pub fn ends(&self) -> Vec<f64> {
         flat(self.tree().points(LinkPoint::End, self.theta_omega().0))
     }
 
-    /// Pivot and end of each link (x, y, x, y, m) if all copies had the mean of their angles, whole
-    /// turns left out: the motion in phase. Empty where nothing is a copy.
+    /// Returns pivot and end of each link (x, y, x, y, in m) in the in-phase motion, that is, if
+    /// all copies had the mean of their angles, where full turns are ignored. Empty if the tree has
+    /// no copies.
     pub fn ghost(&self) -> Vec<f64> {
         if self.differences.is_err() {
             return Vec::new();
@@ -136,21 +138,21 @@ impl Pendulum {
             .collect()
     }
 
-    /// Moves on by a time (s).
+    /// Advances the motion by `duration` seconds.
     ///
     /// # Errors
-    /// A motion that the method cannot follow; it stands still then.
+    /// Fails if the method cannot integrate the motion; the state is then unchanged.
     pub fn advance(&mut self, duration: f64) -> Result<(), String> {
         let moved = self.motion.advance(duration);
         self.largest = self.largest.max(self.energy().abs());
         moved.map_err(|error| error.to_string())
     }
 
-    /// Takes a method by its name, with its tolerance or its step (s). The account of the energy
-    /// begins anew, so that its error is this method's.
+    /// Chooses a method by its name, with its tolerance or its step length (s). The energy account
+    /// starts again, so that its error is the error of this method.
     ///
     /// # Errors
-    /// A name that there is not, a tolerance or a step that is not positive.
+    /// Fails if no method has this name, or if the tolerance or step length is not positive.
     pub fn set_method(&mut self, name: &str, setting: f64) -> Result<(), String> {
         let before = std::mem::replace(&mut self.method, integrator(name, setting)?);
         let set = self.restart(self.swing().clone(), self.time(), self.theta_omega_values());
@@ -160,10 +162,10 @@ impl Pendulum {
         set
     }
 
-    /// Gives a parameter another value (SI units) while the tree moves.
+    /// Changes the value of a parameter (SI units) while the tree moves.
     ///
     /// # Errors
-    /// A value that no pendulum can have.
+    /// Fails if the value is physically impossible.
     pub fn set_parameter(&mut self, name: &str, value: f64) -> Result<(), String> {
         let tree = self.tree().with(name, value);
         let mut swing = self.swing().clone();
@@ -173,11 +175,12 @@ impl Pendulum {
         self.restart(swing, self.time(), self.theta_omega_values())
     }
 
-    /// Goes on as another tree moves: links of the same name, or of the same without the number
-    /// of a copy, have its angles and rates, all others those of the link that they hang from.
+    /// Continues the motion of another tree. Links take the angle and rate of the link with the
+    /// same name there (if necessary, ignoring the numbers of copies); all others take those of
+    /// their parent.
     ///
     /// # Errors
-    /// None, unless the other's state is not finite.
+    /// Fails only if the state of the other tree is not finite.
     pub fn take_up(&mut self, other: &Pendulum) -> Result<(), String> {
         let known = other.names();
         let (theta, omega) = other.theta_omega();
@@ -198,12 +201,13 @@ impl Pendulum {
         self.restart(self.swing().clone(), other.time(), [theta, omega].concat())
     }
 
-    /// Releases the tree from rest, with the root and all other links at these angles, copies set
-    /// apart by `difference` to either side at every branching (rad): θ_d of the paper. Where
-    /// nothing is written as a copy it is that of the first two equal branches.
+    /// Releases the tree from rest. The root has the angle `root` and all other links `rest`; at
+    /// every branching, copies are displaced by `difference` in opposite directions (θ_d of the
+    /// paper). All angles are in rad. If nothing is written as a copy, the first two equal branches
+    /// are displaced.
     ///
     /// # Errors
-    /// Angles that are not finite.
+    /// Fails if an angle is not finite.
     pub fn release(&mut self, root: f64, rest: f64, difference: f64) -> Result<(), String> {
         let links = self.tree().links();
         let mut state = in_phase(links, root, rest).values;
@@ -220,7 +224,7 @@ impl Pendulum {
         self.restart(swing, 0.0, state)
     }
 
-    /// Takes hold of a link, by its point nearest to x, y (m).
+    /// Lets the user's hand hold a link at its point nearest to x, y (m).
     pub fn grab(&mut self, link: usize, x: f64, y: f64) {
         let hand = Hand::on(self.tree(), self.theta_omega().0, link, [x, y]);
         self.motion.ode_mut().0.hand = hand;
@@ -233,12 +237,13 @@ impl Pendulum {
         }
     }
 
-    /// Lets go: links keep their motion.
+    /// Lets go of the link; all links keep their motion.
     pub fn let_go(&mut self) {
         self.motion.ode_mut().0.hand = None;
     }
 
-    /// Point that is held and place of the hand, x, y, x, y (m); empty without a hand.
+    /// Returns the held point and the position of the hand (x, y, x, y, in m); empty without a
+    /// hand.
     pub fn hand(&self) -> Vec<f64> {
         let Swing { tree, hand } = self.swing();
         let ends = hand
@@ -259,8 +264,8 @@ impl Pendulum {
         self.tree().kinetic_energy_of(theta, omega)
     }
 
-    /// Error of the energy since the account began, which work does not explain, over the
-    /// largest energy since, both by their sizes; zero at rest.
+    /// Returns the error of the energy since the beginning of the account, that is, the change not
+    /// explained by work, divided by the largest energy since then; zero at rest.
     pub fn energy_error(&self) -> f64 {
         let work = parts(self.motion.state()).map_or(f64::NAN, |(_, _, work)| work);
         match self.energy() - self.begun - work {
@@ -269,14 +274,14 @@ impl Pendulum {
         }
     }
 
-    /// Evaluations of the accelerations so far.
+    /// Returns the number of evaluations of the accelerations so far.
     pub fn evaluations(&self) -> f64 {
         (self.evaluations + self.motion.report().evaluations) as f64
     }
 
-    /// Energies by scale, by Parseval or from momenta as the paper's H_d; none where nothing is a
-    /// copy, and where they are [refused](Self::refused_energies). Copies that differ have none by
-    /// Parseval: they are NaN.
+    /// Returns the energies by scale, in Parseval's form or computed from momenta like the paper's
+    /// H_d. `None` if the tree has no copies or the energies are [refused](Self::refused_energies).
+    /// If copies differ, the energies in Parseval's form are NaN.
     pub fn budget(&mut self, by_parseval: bool) -> Option<Budget> {
         let differences = self.differences.as_mut().ok()?;
         let Swing { tree, hand } = &self.motion.ode().0;
@@ -292,14 +297,14 @@ impl Pendulum {
         Some(differences.budget(definition, &acting, [theta, omega]))
     }
 
-    /// Returns true if copies differ from each other.
+    /// Returns true if copies have different properties.
     pub fn has_unequal_copies(&self) -> bool {
         let differences = self.differences.as_ref();
         differences.is_ok_and(Differences::are_of_unequal_copies)
     }
 
-    /// Returns why the differences between copies have no energies; none where they have, and
-    /// where nothing is a copy.
+    /// Returns the reason why the differences between copies have no energies; `None` if they have,
+    /// or if the tree has no copies.
     pub fn refused_energies(&self) -> Option<String> {
         match &self.differences {
             Ok(_) | Err(TreeError::NoCopies) => None,
@@ -307,15 +312,16 @@ impl Pendulum {
         }
     }
 
-    /// Returns true if the tree has two equal branches: without them it has no map.
+    /// Returns true if the tree has two equal branches; without them it has no map of releases.
     pub fn has_copies(&self) -> bool {
         self.copies.is_some()
     }
 
-    /// The plane of releases of this tree, followed for so long (s) at a tolerance.
+    /// Creates the map of releases of this tree, each integrated for `span` seconds with this
+    /// tolerance.
     ///
     /// # Errors
-    /// A tree without two equal branches.
+    /// Fails if the tree does not have two equal branches.
     pub fn release_map(&self, span: f64, tolerance: f64) -> Result<ReleaseMap, String> {
         ReleaseMap::of(self.tree(), span, tolerance)
     }
@@ -340,8 +346,8 @@ impl Pendulum {
         [theta, omega].concat()
     }
 
-    /// Goes on with other equations or from another state, angles and rates; nothing has changed
-    /// after an error.
+    /// Continues with other equations or from another state (angles and rates). After an error
+    /// nothing has changed.
     fn restart(&mut self, swing: Swing, time: f64, mut state: Vec<f64>) -> Result<(), String> {
         state.push(0.0);
         let motion = start(&self.method, RatesOnly(swing), &State::new(time, state))?;

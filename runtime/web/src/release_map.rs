@@ -1,12 +1,12 @@
-//! Growth of small differences over the plane of releases.
+//! Map of releases: growth of small differences, depending on the angles of release.
 
 use branched_pendulum::analysis::variational::Copies;
 use branched_pendulum::system::{AbsoluteAngles, Model, Positions, State};
 use branched_pendulum_trees::{DifferenceGrowth, PendulumTree};
 use wasm_bindgen::prelude::wasm_bindgen;
 
-/// The plane of releases from rest of a tree with two equal branches: angle of the root, and
-/// common angle of all that hangs from it.
+/// Map of the releases from rest of a tree with two equal branches. Its axes are the angle of the
+/// root and the common angle of all other links.
 #[wasm_bindgen]
 #[derive(Debug)]
 pub struct ReleaseMap {
@@ -41,7 +41,7 @@ pub(crate) fn copies(tree: &PendulumTree) -> Option<Copies> {
     })
 }
 
-/// Returns a release from rest: angles of the root and of all other links (rad).
+/// Returns a state of release from rest with these angles of the root and of all other links (rad).
 pub(crate) fn in_phase(links: usize, root: f64, rest: f64) -> State<f64> {
     let mut angles = vec![rest; links];
     if let Some(first) = angles.first_mut() {
@@ -68,9 +68,9 @@ impl ReleaseMap {
 
 #[wasm_bindgen]
 impl ReleaseMap {
-    /// Returns the growth rate (1/s) of a small difference after a release from rest with the
-    /// root and all other links at these angles (rad), and by how much it differs from that of a
-    /// hundred times the tolerance, as a part of it; NaN where the motion could not be followed.
+    /// Returns two numbers: the growth rate (1/s) of a small difference after a release from rest
+    /// with the root and all other links at these angles (rad), and its relative change if the
+    /// tolerance is a hundred times as large. NaN if the motion could not be integrated.
     pub fn rate(&self, root: f64, rest: f64) -> Vec<f64> {
         match self
             .differences

@@ -1,13 +1,13 @@
-//! The equations of motion, with an account of the work.
+//! The equations of motion, together with the work done on the tree.
 
 use branched_pendulum::system::{Forced, Model, Ode, Pendulum, Workspace};
 use branched_pendulum_trees::PendulumTree;
 
 use crate::hand::Hand;
 
-/// A tree that a hand may hold. A state is the angles (rad), the angular velocities (rad/s) and
-/// the work (J) that friction, the drive and the hand have done: energy less work changes by the
-/// error of the method alone.
+/// A tree that the user's hand may hold. A state consists of the angles (rad), the angular
+/// velocities (rad/s) and the work (J) done by friction, the drive and the hand. Energy minus work
+/// would be constant; it changes only by the error of the method.
 #[derive(Clone, Debug)]
 pub(crate) struct Swing {
     pub(crate) tree: PendulumTree,
@@ -15,14 +15,14 @@ pub(crate) struct Swing {
 }
 
 impl Swing {
-    /// Returns the torques of the hand (N m), none without one.
+    /// Returns the torques of the hand (N m); `None` without a hand.
     pub(crate) fn torques(&self, theta: &[f64], omega: &[f64]) -> Option<Vec<f64>> {
         let hand = self.hand.as_ref()?;
         Some(hand.torques(&self.tree, theta, omega))
     }
 }
 
-/// Returns angles, angular velocities and work of a state; none of another length.
+/// Splits a state into angles, angular velocities and work; `None` if its length is wrong.
 pub(crate) fn parts(state: &[f64]) -> Option<(&[f64], &[f64], f64)> {
     let (work, motion) = state.split_last()?;
     let (theta, omega) = motion.split_at(motion.len() / 2);

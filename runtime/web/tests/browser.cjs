@@ -6,7 +6,7 @@ const { faults, opened, pictures } = require("./helpers.cjs");
 
 const [, executablePath] = process.argv.slice(2);
 
-const tests = { ...require("./motion.cjs"), ...require("./memory.cjs"), ...require("./face.cjs") };
+const tests = { ...require("./motion.cjs"), ...require("./memory.cjs"), ...require("./typing.cjs"), ...require("./face.cjs") };
 
 const FLAGS = [
   "--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run",

@@ -31,6 +31,14 @@ module.exports = {
     await other.evaluate(() => { location.hash = "#tree=chain&root=10&others=20&apart=0"; });
     await other.waitForFunction(() => document.querySelector("#root").value === "10");
     assert.deepEqual((await motion(other)).names, ["first", "second", "third"]);
+    // It may ask for a still pendulum, or for a moving one again.
+    for (const [part, button] of [["&play=0", "Play"], ["", "Pause"], ["&play=0", "Play"]]) {
+      await other.evaluate((part) => { location.hash = `#tree=arms&root=20&others=${10 + Math.random()}&apart=0${part}`; }, part);
+      await other.waitForFunction((button) => document.querySelector("#play").textContent === button, button);
+    }
+    const { time } = await motion(other);
+    await other.waitForTimeout(200);
+    assert.equal((await motion(other)).time, time, "it stands");
     await other.close();
     const wrong = await opened(browser, {}, "#text=gravity%20%3D%201%2C%20a(mas%20%3D%201)");
     assert.match(await wrong.textContent("#message"), /did you mean `mass`/);

@@ -239,9 +239,9 @@ fn the_budgets_close() {
         let [before, now, after] = [at(step), at(step), at(step)];
         for scale in 0..3 {
             let rate = (after.energies[scale] - before.energies[scale]) / (2.0 * step);
-            let told = now.received[scale] + now.powers[scale];
-            let error = (rate - told).abs();
-            assert!(error < 1e-4 * told.abs(), "scale {scale}: {rate} {told}");
+            let reported = now.received[scale] + now.powers[scale];
+            let error = (rate - reported).abs();
+            assert!(error < 1e-4 * reported.abs(), "scale {scale}: {rate} {reported}");
         }
     }
     // By Parseval the scales have all of the energy.

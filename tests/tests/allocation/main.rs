@@ -2,10 +2,6 @@
 //! evaluation, and energies with a workspace nothing after the first, counted.
 
 #[path = "../../../runtime/tests/counting/mod.rs"]
-#[expect(
-    dead_code,
-    reason = "the sizes of requests are looked at by the runtime's tests alone"
-)]
 mod counting;
 
 use std::num::NonZeroUsize;

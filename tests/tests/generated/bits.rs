@@ -9,6 +9,7 @@ use branched_pendulum_codegen::functions::Argument;
 use branched_pendulum_compiler_tests::random::Random;
 use branched_pendulum_compiler_tests::source::scene;
 use branched_pendulum_tests::scenes::{
+    blades::Blades,
     branch::{Branch, BranchParameters},
     chain::Chain,
     driven::{Driven, DrivenParameters},
@@ -195,6 +196,58 @@ fn unequal() {
         one: [potential_energy, mass_matrix, stiffness_matrix, to_symmetric, from_symmetric]);
 }
 
+/// Functions of angles and of actions.
+#[test]
+fn blades() {
+    let (stages, model) = (scene("blades"), Blades::new());
+    let mut random = Random::new(7);
+    for _ in 0..STATES {
+        let [theta, omega]: [[f64; 3]; 2] = [4.0, 9.0].map(|most| random.array(-most, most));
+        let actions: [f64; 2] = random.array(0.0, 0.1);
+        let compiled = [
+            (
+                "accelerations",
+                model.accelerations(&theta, &omega).to_vec(),
+            ),
+            ("kinetic_energy", vec![model.kinetic_energy(&theta, &omega)]),
+            ("potential_energy", vec![model.potential_energy(&theta)]),
+            (
+                "normal_form_actions",
+                model.normal_form_actions(&theta).to_vec(),
+            ),
+            (
+                "normal_form_frequencies",
+                model.normal_form_frequencies(&actions).to_vec(),
+            ),
+            (
+                "normal_form_coupling",
+                vec![model.normal_form_coupling(&actions)],
+            ),
+            (
+                "normal_form_growth_rate_squared",
+                vec![model.normal_form_growth_rate_squared(&actions)],
+            ),
+            (
+                "normal_form_thresholds",
+                model.normal_form_thresholds(&theta).to_vec(),
+            ),
+        ];
+        assert_eq!(compiled.len(), stages.program.entries.len());
+        for (name, compiled) in compiled {
+            let input = |argument: Argument, index: usize| match argument {
+                Argument::Actions => actions[index],
+                Argument::Omega => omega[index],
+                Argument::Theta => theta[index],
+                other => unreachable!("no function of this scene takes {other:?}"),
+            };
+            let interpreted = stages.program.evaluate(Scalar::sin_cos, name, &[], input);
+            let interpreted = interpreted.unwrap_or_else(|| panic!("no entry {name}"));
+            let bits = |v: &[f64]| v.iter().map(|x| x.to_bits()).collect::<Vec<_>>();
+            assert_eq!(bits(&compiled), bits(&interpreted), "{name}");
+        }
+    }
+}
+
 #[test]
 fn offset() {
     agree!("offset", Offset::new(), [], 3,
@@ -309,7 +362,7 @@ fn functions_of_a_link_in_loops() {
             joint_angle,
             joint_rate,
             outside_torque: 0.0,
-            held: 0.0,
+            prescribed: 0.0,
         };
         let response: <E as LinkEquations>::Response<f64> = row(&mut random);
         let sums: <E as LinkEquations>::Sums<f64> = row(&mut random);

@@ -149,6 +149,88 @@ fn two_crates_and_an_editor_at_once() {
     std::fs::remove_dir_all(&folder).expect("the folder is ours");
 }
 
+/// Structs with attributes of the user's own: written out, in loops and with parameters.
+const WITH_ATTRIBUTES: &str = r#"
+//! A user's crate.
+#![deny(warnings, missing_docs)]
+use branched_pendulum::prelude::*;
+
+/// A rod with a number for each value.
+#[branched_pendulum(gravity = 9.80665, arm: rod(mass = 0.2, length = 0.3), emit(energies, momenta, modes))]
+#[deprecated(note = "take the other one")]
+#[non_exhaustive]
+#[derive(Clone, Debug)]
+pub struct Rod;
+
+/// Two equal rods on one, with parameters.
+#[branched_pendulum(
+    gravity = g,
+    arm: rod(mass = m, length = 0.3) [hand: rod(mass = 0.1, length = 0.2) * 2],
+    emit(energies, symmetric, positions, forces, transfer(exact)),
+)]
+#[must_use]
+#[deprecated]
+#[doc(hidden)]
+pub struct Pair;
+
+/// Rods by rule, in loops.
+#[branched_pendulum(
+    gravity = 9.80665,
+    a: generations(count = 3, branching = 2, shape = rod, mass = 0.1, length = 0.2, code = loops),
+    emit(energies),
+)]
+#[cfg(all())]
+#[deprecated = "take the other one"]
+#[allow(clippy::module_name_repetitions)]
+pub struct Loops;
+"#;
+
+#[test]
+fn attributes_of_a_struct_cause_no_warnings() {
+    let folder = std::env::temp_dir().join(format!("branched-pendulum-a{}", std::process::id()));
+    std::fs::create_dir_all(&folder).expect("the temporary folder is writable");
+    let external = format!("branched_pendulum={}", runtime(&folder).display());
+    let output = rustc(
+        &folder,
+        "attributes",
+        WITH_ATTRIBUTES,
+        &external,
+        "metadata",
+    )
+    .output();
+    let output = output.expect("the compiler runs");
+    assert_eq!(String::from_utf8_lossy(&output.stderr), "");
+    std::fs::remove_dir_all(&folder).expect("the folder is ours");
+}
+
+/// The runtime under another name: the error says what to write, and that is enough.
+#[test]
+fn a_renamed_runtime_is_named() {
+    let folder = std::env::temp_dir().join(format!("branched-pendulum-r{}", std::process::id()));
+    std::fs::create_dir_all(&folder).expect("the temporary folder is writable");
+    let runtime = runtime(&folder);
+    for name in ["bp", "pendulum", "branched"] {
+        let external = format!("{name}={}", runtime.display());
+        let source = FIRST.replace("branched_pendulum::prelude", &format!("{name}::prelude"));
+        let compile = |source: &str| {
+            let output = rustc(&folder, "user", source, &external, "metadata").output();
+            let output = output.expect("the compiler runs");
+            String::from_utf8_lossy(&output.stderr).into_owned()
+        };
+        let errors = compile(&source);
+        let title = format!("the crate `branched_pendulum` is called `{name}` here");
+        assert!(errors.contains(&title), "{errors}");
+        assert!(
+            errors.contains(&format!("write `crate = ::{name}`")),
+            "{errors}"
+        );
+        assert!(!errors.contains("E0433"), "{errors}");
+        let path = format!("crate = ::{name}, gravity");
+        assert_eq!(compile(&source.replacen("gravity", &path, 1)), "");
+    }
+    std::fs::remove_dir_all(&folder).expect("the folder is ours");
+}
+
 /// A derive that does not exist.
 const WRONG_DERIVE: &str = r#"
 use branched_pendulum::prelude::*;

@@ -13,7 +13,7 @@ type Release = (AbsoluteAngles<DrivenSeries>, State<f64>);
 const COUNT: u32 = 29;
 
 /// A link without mass and inertia, whose mass matrix is singular, and a parameter
-/// that is no number.
+/// that is not a number.
 const BAD: [usize; 2] = [4, 21];
 
 const END: f64 = 3.0;

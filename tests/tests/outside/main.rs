@@ -5,6 +5,7 @@ mod antiphase;
 mod balance;
 mod changes;
 mod gusts;
+mod inverse_dynamics;
 mod lanes;
 mod prescribed;
 mod prescribed_loops;

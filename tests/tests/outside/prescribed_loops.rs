@@ -211,9 +211,9 @@ where
             let held = PrescribedOde::of(model(), 1, hands).expect("it has that set");
             let mut values = random.around_zero(2 * model().links(), 0.4);
             let links = values.len() / 2;
-            let mut courses = vec![[0.0; 3]; held.held_links().len()];
+            let mut courses = vec![[0.0; 3]; held.prescribed_links().len()];
             hands.courses_into(0.0, &mut courses);
-            for (&link, [angle, rate, _]) in held.held_links().iter().zip(courses) {
+            for (&link, [angle, rate, _]) in held.prescribed_links().iter().zip(courses) {
                 (values[link], values[links + link]) = (angle, rate);
             }
             (held, State::new(0.0, values))

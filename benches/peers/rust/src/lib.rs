@@ -1,5 +1,5 @@
-//! What comparisons with other tools share: our trees as emitted code, the motions of the studies
-//! and their references, and our accelerations for programs in C.
+//! Shared code of the comparisons with other tools: our trees as emitted code, the motions of the
+//! studies with their references, and our accelerations for programs in C.
 
 #[rustfmt::skip]
 #[path = "../expanded.rs"]
@@ -14,7 +14,7 @@ use branched_pendulum::prelude::*;
 use branched_pendulum::scalar::Double;
 use scenes::{BranchedDouble, Rods, ThirtyOneRods};
 
-/// Accelerations of states one after the other.
+/// Evaluates the accelerations of all states one after the other.
 fn each<P: Pendulum<f64>>(model: &P, given: [&[f64]; 2], alpha: &mut [f64]) {
     let n = model.links();
     let [theta, omega] = given.map(|values| values.chunks_exact(n));
@@ -23,7 +23,7 @@ fn each<P: Pendulum<f64>>(model: &P, given: [&[f64]; 2], alpha: &mut [f64]) {
     }
 }
 
-/// The same in numbers of 31 digits, rounded.
+/// Evaluates the accelerations of all states with 31 digits, and rounds them.
 fn each_exactly<P: Pendulum<Double>>(model: &P, given: [&[f64]; 2], alpha: &mut [f64]) {
     let n = model.links();
     let wide =
@@ -43,12 +43,12 @@ fn each_exactly<P: Pendulum<Double>>(model: &P, given: [&[f64]; 2], alpha: &mut 
     }
 }
 
-/// Accelerations (rad/s²) of our tree of so many links for `states` states, each with its absolute
-/// angles (rad) and velocities (rad/s) behind those of the one before. Returns 0, or 1 for a number
-/// of links that no tree here has.
+/// Writes the accelerations (rad/s²) of our tree of `links` links for `states` states. Angles (rad)
+/// and velocities (rad/s) are absolute, state after state. Returns 0, or 1 if there is no tree with
+/// this number of links.
 ///
 /// # Safety
-/// The three arrays have `states * links` numbers.
+/// The three arrays must have `states * links` numbers.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn accelerations(
     links: usize,

@@ -1,7 +1,7 @@
-//! The motions of `integration-speed` that last ten seconds, by the names that [`measure`](crate::measure) knows
-//! them by.
+//! Motions of `integration-speed` that last ten seconds, by the names that
+//! [`measure`](crate::measure) uses.
 
-/// Motions and where they end.
+/// Motions, with their states at the end.
 pub mod reference {
     use std::error::Error;
 
@@ -11,22 +11,22 @@ pub mod reference {
 
     use crate::scenes::{BranchedDouble, Rods};
 
-    /// End of all motions, s.
+    /// End time of all motions, in s.
     pub const END: f64 = 10.0;
 
-    /// The regular motion of the paper's pendulum: angles at the start, rad.
+    /// Initial angles of the regular motion of the paper's pendulum, in rad.
     pub const REGULAR: [f64; 3] = [0.3, 1e-3, -1e-3];
 
-    /// A motion from rest and where it is at its end.
+    /// A motion from rest, with its state at the end.
     #[derive(Clone, Debug)]
     pub struct Problem {
         /// Name.
         pub name: &'static str,
-        /// Angles at the start, rad.
+        /// Initial angles, in rad.
         pub start: Vec<f64>,
-        /// The time of the end, s.
+        /// End time, in s.
         pub end: f64,
-        /// Angles (rad) and velocities (rad/s) then.
+        /// Angles (rad) and velocities (rad/s) at the end.
         pub expected: Vec<f64>,
     }
 
@@ -46,7 +46,8 @@ pub mod reference {
         }
     }
 
-    /// Angles and velocities at some times, by Taylor series in numbers of 31 digits, rounded.
+    /// Returns angles and velocities at some times, computed by Taylor series with 31 digits and
+    /// rounded.
     ///
     /// # Errors
     /// Errors of the integration.
@@ -66,7 +67,8 @@ pub mod reference {
         Ok(states.iter().map(rounded).collect())
     }
 
-    /// Motions of the paper's pendulum: a regular one, and one near the threshold, which is chaotic.
+    /// Returns two motions of the paper's pendulum: a regular one, and a chaotic one near the
+    /// threshold.
     ///
     /// # Errors
     /// Errors of the integration.
@@ -79,7 +81,8 @@ pub mod reference {
         ])
     }
 
-    /// Seven rods: root, then each child with its own.
+    /// Returns a motion of seven rods, ordered as the root, then each child followed by its own
+    /// children.
     ///
     /// # Errors
     /// Errors of the integration.

@@ -1,22 +1,22 @@
-//! The command line.
+//! Command line of the program `advise`.
 
 use branched_pendulum_advice::TimeLimit;
 use clap::Parser;
 
-use super::asked::{OutputName, Question, SceneName};
+use super::requests::{OutputName, Question, SceneName};
 use branched_pendulum_frame::command_line::number;
 
-/// Which model, method, tolerance or step and scalar is the cheapest that is right, on
-/// this machine? Measures all of a scene and says what to take, how wrong it is and what
-/// it costs, what comes next, why what is cheaper will not do, and what to write.
+/// Which model, method, tolerance or step and number type is the cheapest that is
+/// accurate enough, on this machine? Measures all candidates for a scene and reports
+/// the one to use, its error and its cost, the runners-up, and why cheaper ones fail.
 #[derive(Clone, Debug, Parser, PartialEq)]
 #[command(name = "advise", version, verbatim_doc_comment)]
 pub struct Arguments {
     /// the tree and its release
     #[arg(long, value_name = "SCENE", value_enum, default_value = "paper")]
     pub scene: SceneName,
-    /// outputs with their largest errors, with commas between: angles (rad),
-    /// energy (J), pixels (of 1000 a metre), transfer (W; of the paper's)
+    /// outputs with their largest errors, separated by commas: angles (rad),
+    /// energy (J), pixels (1000 per metre), transfer (W; paper's tree only)
     #[arg(
         long,
         value_name = "OUTPUTS",
@@ -25,14 +25,14 @@ pub struct Arguments {
         verbatim_doc_comment
     )]
     pub right: RightOutputs,
-    /// time followed, s from 0.1 to 1000
+    /// duration of the motion, s from 0.1 to 1000
     #[arg(long, value_name = "S", default_value = "10", value_parser = number(0.1..=1e3, "s"))]
     pub horizon: f64,
-    /// samples, or frames, a second, from 0.1 to 1000
+    /// samples, or frames, per second, from 0.1 to 1000
     #[arg(long, value_name = "HZ", default_value = "10", value_parser = number(0.1..=1e3, "Hz"))]
     pub rate: f64,
-    /// releases, 1 to 1000: several may go at once in the lanes of vector
-    /// registers
+    /// number of releases, 1 to 1000; several may be integrated at once in
+    /// vector registers
     #[arg(
         long,
         value_name = "N",
@@ -41,18 +41,18 @@ pub struct Arguments {
         verbatim_doc_comment
     )]
     pub starts: u32,
-    /// largest time that may be taken: `step:` or `sample:` and µs
+    /// largest computing time that is accepted: `step:` or `sample:` and µs
     #[arg(long, value_name = "LIMIT", value_parser = read_limit)]
     pub limit: Option<Limit>,
-    /// draws accuracy against cost of three scenes instead; needs --output
+    /// instead, draws accuracy against cost for three scenes; needs --output
     #[arg(long, requires = "output")]
     pub chart: bool,
-    /// asks twelve questions instead, and measures what else might be cheaper
+    /// instead, answers twelve questions, and measures cheaper alternatives
     #[arg(long, conflicts_with = "chart")]
     pub audit: bool,
 }
 
-/// Outputs with their tolerances.
+/// List of required outputs with their tolerances.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RightOutputs(pub Vec<(OutputName, f64)>);
 
@@ -61,7 +61,7 @@ pub struct RightOutputs(pub Vec<(OutputName, f64)>);
 pub struct Limit(pub TimeLimit);
 
 impl Arguments {
-    /// The question that they ask.
+    /// Returns the question that the arguments describe.
     pub fn question(&self) -> Question {
         Question {
             scene: self.scene,
@@ -88,9 +88,9 @@ impl branched_pendulum_frame::Arguments for Arguments {
 
 fn read_outputs(text: &str) -> Result<RightOutputs, String> {
     let one = |part: &str| {
-        let (name, tolerance) = part
-            .split_once(':')
-            .ok_or_else(|| format!("`{part}` is no output and its largest error: `angles:1e-6`"))?;
+        let (name, tolerance) = part.split_once(':').ok_or_else(|| {
+            format!("`{part}` names no output with its largest error, such as `angles:1e-6`")
+        })?;
         let output = OutputName::ALL.iter().find(|output| output.word() == name);
         let output = output.ok_or_else(|| {
             let words = OutputName::ALL.map(OutputName::word).join(", ");
@@ -131,7 +131,7 @@ mod tests {
     #[test]
     fn what_cannot_be_followed_is_explained() {
         for (line, message) in [
-            ("--right angles", "is no output and its largest error"),
+            ("--right angles", "names no output with its largest error"),
             (
                 "--right speed:1",
                 "outputs: angles, energy, pixels, transfer",

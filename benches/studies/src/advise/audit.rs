@@ -1,13 +1,13 @@
-//! Is what the advisor chooses the cheapest? Twelve questions, and beside each answer
-//! everything that might be cheaper, at many settings.
+//! Audit of the advisor: twelve questions, and next to each answer the measurements of all
+//! candidates that might be cheaper.
 
 use branched_pendulum_advice::{Advisor, Candidates, Measured};
 
-use super::asked::{self, OutputName, Question, SceneName};
+use super::requests::{self, OutputName, Question, SceneName};
 use branched_pendulum_frame::Failure;
 use branched_pendulum_frame::Job;
 
-/// The questions: scene, output, largest error, time followed, samples a second, starts.
+/// Questions: scene, output, largest error, end time (s), samples per second, number of starts.
 const QUESTIONS: [(SceneName, OutputName, f64, f64, f64, u32); 12] = [
     (SceneName::Paper, OutputName::Angles, 1e-2, 10.0, 10.0, 1),
     (SceneName::Paper, OutputName::Angles, 1e-4, 10.0, 10.0, 1),
@@ -23,14 +23,14 @@ const QUESTIONS: [(SceneName, OutputName, f64, f64, f64, u32); 12] = [
     (SceneName::Branch, OutputName::Angles, 1e-6, 5.0, 10.0, 1),
 ];
 
-/// Decades between the settings that are tried.
+/// Distance between the settings that are tried, in decades.
 const SPACING: f64 = 0.1;
 
-/// Rivals that are timed in turns with the choice, and rounds of turns.
+/// Number of competitors that are timed alternately with the choice, and number of repetitions.
 const RIVALS: usize = 6;
 const ROUNDS: usize = 30;
 
-/// Asks all questions and prints a table.
+/// Answers all questions and prints a table.
 ///
 /// # Errors
 /// [`Failure`].
@@ -55,7 +55,7 @@ pub fn run(job: &Job) -> Result<(), Failure> {
             limit: None,
         };
         let line = progress.ticking(|| {
-            asked::with(&question, |advisor, candidates| {
+            requests::with(&question, |advisor, candidates| {
                 let advice = advisor.advise(candidates)?;
                 let Some(chosen) = advice.chosen() else {
                     return Ok("  nothing is right\n".to_owned());
@@ -80,7 +80,7 @@ pub fn run(job: &Job) -> Result<(), Failure> {
     job.write("audit.txt", text.as_bytes())
 }
 
-/// The cheapest right runs with their times, and the choice's: in turns.
+/// Times the choice and the cheapest other right runs again, alternating between them.
 fn retimed<'r>(
     advisor: &Advisor<'_>,
     candidates: &Candidates<'_>,

@@ -1,5 +1,5 @@
-//! Accuracy against cost of all models, methods and scalars, with the front of the best
-//! and the advisor's choices.
+//! Chart of accuracy against cost of all models, methods and scalar types, with the most efficient
+//! runs and the advisor's choices.
 
 use std::collections::BTreeMap;
 
@@ -8,17 +8,17 @@ use branched_pendulum_charts::{Axis, Chart, Color, Dash, Panel, Series, Symbol};
 use branched_pendulum_data::{Cell, Column};
 
 use super::arguments::Arguments;
-use super::asked::{self, OutputName, Question, SceneName};
+use super::requests::{self, OutputName, Question, SceneName};
 use branched_pendulum_frame::Failure;
 use branched_pendulum_frame::Job;
 
-/// Largest errors of the angles that advice is asked for, rad.
+/// Largest errors of the angles (rad) for which the advisor is asked.
 const TOLERANCES: [f64; 4] = [1e-2, 1e-4, 1e-6, 1e-8];
 
-/// Decades between two tolerances of a method.
+/// Distance between two tolerances of a method, in decades.
 const SPACING: f64 = 0.5;
 
-/// A scene, measured.
+/// Measurements of a scene.
 struct Surveyed {
     scene: SceneName,
     names: Vec<CandidateName>,
@@ -55,17 +55,17 @@ fn survey(scene: SceneName, arguments: &Arguments) -> Result<Surveyed, Failure> 
     let advice: Result<Vec<Advice>, Failure> = TOLERANCES
         .into_iter()
         .map(|tolerance| {
-            asked::with(&question(tolerance), |advisor, candidates| {
+            requests::with(&question(tolerance), |advisor, candidates| {
                 advisor.advise(candidates)
             })
         })
         .collect();
     let advice = advice?;
-    // Errors are those of an allowed one of 1 rad; the finest choice is not the dearest
+    // Errors are relative to an allowed error of 1 rad. The finest choice is not the most expensive
     // point of the chart.
     let dearest = advice.iter().filter_map(Advice::chosen);
     let most = 5.0 * dearest.map(|run| run.seconds).fold(0.0, f64::max);
-    let (names, runs) = asked::with(&question(1.0), |advisor, candidates| {
+    let (names, runs) = requests::with(&question(1.0), |advisor, candidates| {
         let names = candidates.names().collect();
         Ok((names, advisor.survey(candidates, SPACING, most)?))
     })?;
@@ -77,7 +77,7 @@ fn survey(scene: SceneName, arguments: &Arguments) -> Result<Surveyed, Failure> 
     })
 }
 
-/// Choices in a scene.
+/// Returns the choices in a scene as text.
 fn table(surveyed: &Surveyed) -> String {
     let mut text = format!("{}\n", surveyed.scene.title());
     for (tolerance, advice) in TOLERANCES.iter().zip(&surveyed.advice) {
@@ -99,7 +99,7 @@ fn table(surveyed: &Surveyed) -> String {
     text + "\n"
 }
 
-/// Series: model and scalar.
+/// Returns the name of the series to which a candidate belongs: its model and scalar type.
 fn series_of(name: &CandidateName) -> String {
     format!("{}, {}", name.model, name.scalar)
 }

@@ -1,30 +1,31 @@
-//! Which model, method, tolerance or step and scalar is the cheapest that is right?
+//! The program `advise`: finds the cheapest combination of model, method, tolerance or step and
+//! scalar type that is right.
 //!
-//! [`branched_pendulum_advice`] measures; here are scenes
-//! to ask it about, and the chart of accuracy against cost.
+//! [`branched_pendulum_advice`] measures; these modules add scenes and the chart of accuracy
+//! against cost.
 //!
 //! - [`arguments`]: the command line,
 //! - [`scenes`]: the trees, in all their forms,
-//! - [`asked`]: one scene as an advisor sees it,
+//! - [`requests`]: a scene for the advisor,
 //! - [`chart`]: accuracy against cost,
-//! - [`audit`]: the choices of twelve questions against everything else.
+//! - [`audit`]: the choices of twelve questions compared with all other candidates.
 
 pub mod arguments;
-pub mod asked;
 pub mod audit;
 pub mod chart;
+pub mod requests;
 pub mod scenes;
 
 use branched_pendulum_advice::Advice;
 use branched_pendulum_data::{Cell, Column};
 
 pub use arguments::Arguments;
-pub use asked::SceneName;
+pub use requests::SceneName;
 
 use branched_pendulum_frame::Failure;
 use branched_pendulum_frame::Job;
 
-/// Asks for advice, or draws the chart.
+/// Runs the advisor, or draws the chart.
 ///
 /// # Errors
 /// [`Failure`].
@@ -38,7 +39,7 @@ pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
     let progress = job.progress(1);
     progress.begin(arguments.scene.title());
     let advice = progress.ticking(|| {
-        asked::with(&arguments.question(), |advisor, candidates| {
+        requests::with(&arguments.question(), |advisor, candidates| {
             advisor.advise(candidates)
         })
     })?;

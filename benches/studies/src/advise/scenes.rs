@@ -1,9 +1,8 @@
-//! The trees that advice is asked for, in all the forms that their motion may be
-//! computed in.
+//! Trees for the advisor, in all the forms in which their motion can be computed.
 
 use branched_pendulum::branched_pendulum;
 
-/// The paper's apparatus, its children in phase.
+/// The paper's apparatus with its children in phase.
 #[branched_pendulum(
     gravity = 9.80665,
     parent(mass = 0.12880, com = 0.084, inertia = 1.88e-3, joint = 0.27) [
@@ -14,8 +13,7 @@ use branched_pendulum::branched_pendulum;
 )]
 pub struct PaperInPhase;
 
-/// Six generations of rods: every rod carries two of half its mass and seven tenths of
-/// its length.
+/// Six generations of rods: each rod carries two rods with half its mass and 0.7 times its length.
 macro_rules! cascade {
     ($(#[$doc:meta])* $name:ident: $($entries:tt)*) => {
         $(#[$doc])*

@@ -1,4 +1,4 @@
-//! Which model, method, setting and scalar to take.
+//! Program that finds the cheapest model, method, setting and scalar type.
 //!
 //! `advise --help` lists the options.
 

@@ -1,4 +1,4 @@
-//! The cost of a trajectory to a given error.
+//! Program that measures the cost of computing a trajectory to a given error.
 //!
 //! `integration-speed --help` says what is measured.
 
@@ -47,7 +47,7 @@ impl frame::Arguments for Arguments {
 /// Runs of each tolerance.
 const REPEATS: usize = 25;
 
-/// Of the problems, those of this duration, in seconds.
+/// Duration of the problems that are measured, in s; the others are left out.
 const END: f64 = 10.0;
 
 fn main() -> ExitCode {
@@ -65,7 +65,7 @@ fn main() -> ExitCode {
     })
 }
 
-/// Prints, and keeps the text for the file.
+/// Prints text and also stores it for the file.
 struct Output<'a> {
     job: &'a Job,
     text: RefCell<String>,
@@ -79,7 +79,7 @@ impl Output<'_> {
     }
 }
 
-/// Failure of a motion that does not start from one angle.
+/// Returns the error if a motion fails that is not described by one angle of release.
 fn failed(error: impl Error + Send + Sync + 'static) -> Failure {
     Failure::integration(0.0, error)
 }
@@ -135,7 +135,8 @@ fn trees(output: &Output) -> Result<(), Failure> {
     )
 }
 
-/// Rods at rest, the root at 0.08 rad, the others within 0.01 rad of the vertical.
+/// Measures a tree of rods, released from rest with the root at 0.08 rad and the others within 0.01
+/// rad of the vertical.
 fn tree<O: TaylorOde<f64>>(
     output: &Output,
     name: &'static str,
@@ -187,7 +188,7 @@ fn motions(output: &Output) -> Result<(), Failure> {
     Ok(())
 }
 
-/// The rows of one problem, a part of `progress`.
+/// Measures one problem and prints its rows, as a part of `progress`.
 fn rows<O: TaylorOde<f64>>(
     output: &Output,
     ode: &O,

@@ -1,4 +1,4 @@
-//! Where each method fails.
+//! Program that maps the steps and motions for which each method fails.
 //!
 //! `stability-map --help` lists the options.
 

@@ -1,4 +1,5 @@
-//! A branch in the wind, by models from the full one to a few modes.
+//! Program that simulates a branch in the wind with several models, from the full equations to a
+//! few linear modes.
 //!
 //! `swaying-branch --help` lists the options.
 

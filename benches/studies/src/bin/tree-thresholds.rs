@@ -1,4 +1,5 @@
-//! From which releases on small differences grow in trees by rule.
+//! Program that finds the angles of release from which on small differences grow in trees given by
+//! a rule.
 //!
 //! `tree-thresholds --help` lists the options.
 

@@ -1,4 +1,4 @@
-//! The cost of a given error with each method.
+//! Program that measures the cost of a given error for each method.
 //!
 //! `work-precision --help` lists the options.
 

@@ -1,4 +1,4 @@
-//! Trajectories a second, one by one and in lanes.
+//! Trajectories per second, integrated one by one and several at once in vector registers.
 
 use std::hint::black_box;
 use std::num::NonZeroUsize;
@@ -10,24 +10,24 @@ use branched_pendulum::prelude::*;
 
 use crate::scenes::{BranchedDouble, DampedBranchedDouble, DampedBranchedDoubleParameters};
 
-/// How fast a way to integrate is, on one thread.
+/// Speed of one way of integrating, on one thread.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Speed {
-    /// The method, and how it runs.
+    /// Name of the method, and whether it integrates several trajectories at once.
     pub way: &'static str,
     /// Trajectories a second.
     pub per_second: f64,
 }
 
-/// Order of the Taylor series: as fast as the order that the tolerance of 1e-9 calls
-/// for by default, with smaller errors.
+/// Order of the Taylor series: with it they are as fast as with the default order for a tolerance
+/// of 1e-9, and the errors are smaller.
 pub const ORDER: usize = 18;
 
-/// Largest friction of [`friction_scan`], N m s.
+/// Largest friction coefficient in [`friction_scan`], in N m s.
 const FRICTION: f64 = 1e-3;
 
-/// Releases of the paper's pendulum from 40° to 55°, its children a thousandth of
-/// a radian to both sides of the vertical.
+/// Returns releases of the paper's pendulum from 40° to 55°, with one child a thousandth of a
+/// radian to the left and the other to the right of the vertical.
 #[must_use]
 pub fn near_threshold(count: u32) -> Vec<State<f64>> {
     let step = 15.0 / f64::from(count.max(2) - 1);
@@ -37,14 +37,14 @@ pub fn near_threshold(count: u32) -> Vec<State<f64>> {
         .collect()
 }
 
-/// A model of its own, and where it starts.
+/// A model, and its start.
 type Release = (AbsoluteAngles<DampedBranchedDouble>, State<f64>);
 
-/// Paper's pendulums with friction from zero to 1e-3 N m s in every pivot, released
-/// from 50°.
+/// Returns copies of the paper's pendulum with friction coefficients from zero to 1e-3 N m s in
+/// every pivot, released from 50°.
 ///
 /// # Errors
-/// None: the parameters are possible.
+/// Does not occur, since the parameters are valid.
 pub fn friction_scan(count: u32) -> Result<Vec<Release>, ParameterError> {
     let step = FRICTION / f64::from(count.max(2) - 1);
     (0..count)
@@ -65,16 +65,16 @@ fn released(angle: f64) -> State<f64> {
 
 type Ends = Vec<Result<Solution<f64>, IntegrationError<f64>>>;
 
-/// The ways that are compared; the first is one by one.
-const WAYS: [&str; 4] = [
+/// Names of the compared ways of integrating; the first integrates trajectories one by one.
+const CONTENDERS: [&str; 4] = [
     "Dop853, one by one",
     "Dop853 in lanes",
     "Verner98 in lanes",
     "Taylor in lanes",
 ];
 
-/// One model from every start to the time `end`, in the ways in turn: the best of
-/// several runs of each.
+/// Measures the speed of integrating one model from every start to the time `end`. The ways of
+/// integrating are timed alternately, and the fastest of several runs of each counts.
 ///
 /// # Errors
 /// Errors of the integration.
@@ -99,7 +99,7 @@ pub fn speeds(
     )
 }
 
-/// Speeds for models that differ, each from its own start.
+/// Measures the speed of integrating models with different parameters, each from its own start.
 ///
 /// # Errors
 /// Errors of the integration.
@@ -147,10 +147,10 @@ impl Methods {
 }
 
 fn best(
-    ways: [&dyn Fn() -> Ends; WAYS.len()],
+    ways: [&dyn Fn() -> Ends; CONTENDERS.len()],
     repeats: usize,
 ) -> Result<Vec<Speed>, IntegrationError<f64>> {
-    let mut best = WAYS.map(|way| Speed {
+    let mut best = CONTENDERS.map(|way| Speed {
         way,
         per_second: 0.0,
     });

@@ -1,5 +1,4 @@
-//! Times and errors of one method at many tolerances, and the time for a given
-//! error between them.
+//! Times and errors of one method at many tolerances, and the interpolated time for a given error.
 
 use std::hint::black_box;
 use std::time::Instant;
@@ -9,19 +8,19 @@ use branched_pendulum::prelude::*;
 
 use crate::work_precision::reference::Problem;
 
-/// Errors of which the table gives the time.
+/// Errors for which the table shows the time.
 pub const ERRORS: [f64; 5] = [1e-3, 1e-6, 1e-9, 1e-12, 1e-14];
 
 /// One run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Point {
-    /// Largest error of all angles and velocities at the end.
+    /// Largest error of all angles (rad) and velocities (rad/s) at the end.
     pub error: f64,
     /// Shortest time of several, µs.
     pub micros: f64,
 }
 
-/// Three tolerances a decade from 1e-2 to 1e-16, each run `repeats` times.
+/// Runs a method at three tolerances per decade from 1e-2 to 1e-16, `repeats` times each.
 ///
 /// # Errors
 /// Errors of the integration.
@@ -51,7 +50,7 @@ pub fn points<O: Ode<f64>, M: Integrator<f64, O>>(
         .collect()
 }
 
-/// The least time at which this error was reached, if it was.
+/// Returns the shortest time at which this error was reached; `None` if it was not reached.
 pub fn time_for(points: &[Point], error: f64) -> Option<f64> {
     let reached = points.iter().filter(|point| point.error <= error);
     reached.map(|point| point.micros).reduce(f64::min)

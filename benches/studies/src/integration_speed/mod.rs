@@ -1,4 +1,5 @@
-//! The cost of a trajectory to a given error, for the comparison with heyoka.
+//! The cost of computing a trajectory to a given error, for the comparison with the integrator
+//! heyoka.
 //!
 //! `benches/peers/heyoka_trajectory.py` measures the same problems.
 

@@ -1,7 +1,7 @@
-//! Where does each method fail: step against amplitude, and against friction?
-//! And where does each truncation of W?
+//! Maps of the region in which each method fails, by step and amplitude and by step and friction;
+//! and maps of the region in which each truncated form of W fails.
 //!
-//! - [`verdict`]: what became of a run,
+//! - [`verdict`]: classification of a run,
 //! - [`output`]: table, CSV file and charts,
 //! - [`truncation`]: forms of W against amplitude.
 
@@ -14,10 +14,10 @@ use clap::Parser;
 use branched_pendulum_frame::Failure;
 use branched_pendulum_frame::Job;
 
-/// Where does each method fail? Runs the paper's branched double pendulum with
+/// Maps where each method fails: runs the paper's branched double pendulum with
 /// every method at many steps (or tolerances), amplitudes and frictions, and maps
 /// what became of each run: accurate, bounded but wrong, drifting, diverged, or
-/// refused with an error. Maps the truncated forms of the energy transfer W likewise:
+/// refused with an error. Also maps the truncated forms of the energy transfer W:
 /// accurate, bounded but wrong, or useless.
 #[derive(Clone, Debug, Parser, PartialEq)]
 #[command(name = "stability-map", version, verbatim_doc_comment)]
@@ -38,18 +38,18 @@ impl branched_pendulum_frame::Arguments for Arguments {
     const FOLDER: Option<&'static str> = Some("stability-map-output");
 }
 
-/// Computes the maps asked for, on all cores; one is there before the next begins.
+/// Computes the requested maps one after the other, each on all cores.
 ///
 /// # Errors
 /// [`Failure`].
 pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
-    let asked = |name: &str| arguments.map == "all" || arguments.map == name;
+    let requests = |name: &str| arguments.map == "all" || arguments.map == name;
     for survey in output::SURVEYS {
-        if asked(survey.name) {
+        if requests(survey.name) {
             output::deliver(job, &survey.map(job)?)?;
         }
     }
-    if asked("truncation") {
+    if requests("truncation") {
         truncation::deliver(job, &truncation::map(job)?)?;
     }
     Ok(())

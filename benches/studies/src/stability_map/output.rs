@@ -25,20 +25,20 @@ pub const ADAPTIVE: [Method; 4] = [
     Method::Taylor,
 ];
 
-/// A run's trial in its map, and its fate.
+/// A run of a map, and its result.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Trial {
     /// The method.
     pub method: Method,
     /// Step or tolerance of the method.
     pub setting: f64,
-    /// Angle of release (degrees) or friction (N m s).
+    /// Angle of release (degrees) or friction coefficient (N m s).
     pub height: f64,
     /// The run's fate.
     pub verdict: Verdict,
 }
 
-/// A map: a survey and its runs.
+/// A map: a survey with its results.
 #[derive(Clone, Debug)]
 pub struct Map {
     survey: Survey,
@@ -46,13 +46,13 @@ pub struct Map {
     pub trials: Vec<Trial>,
 }
 
-/// The runs that make a map.
+/// Set of runs that make up a map.
 #[derive(Clone, Copy, Debug)]
 pub struct Survey {
     /// Name on the command line.
     pub name: &'static str,
     title: &'static str,
-    /// Setting and height, each with its unit.
+    /// Names and units of the two coordinates: setting, and angle or friction.
     columns: [(&'static str, &'static str); 2],
     /// The y axis of a method's panel.
     y: fn(&str) -> Axis,
@@ -62,7 +62,8 @@ pub struct Survey {
     judge: fn(&[f64]) -> Result<Judge, Failure>,
 }
 
-/// Verdict on a run with this method, setting and height.
+/// Function that runs a method with this setting and this angle or friction, and returns the
+/// verdict.
 type Judge = Box<dyn Fn(Method, f64, f64) -> Verdict + Sync>;
 
 /// All surveys.
@@ -118,7 +119,7 @@ fn logarithmic(low: f64, high: f64, count: u32) -> Vec<f64> {
         .collect()
 }
 
-/// Computes the references of all frictions before the runs.
+/// Computes the reference energies for all friction coefficients, before the runs.
 fn damped_by_friction(frictions: &[f64]) -> Result<Judge, Failure> {
     let reference = |&friction: &f64| {
         let model = damped_model(friction)?;
@@ -171,7 +172,7 @@ fn grid(methods: &[Method], settings: &[f64], heights: &[f64]) -> Vec<(Method, f
     grid
 }
 
-/// The table of a map: how many runs of each method met each fate.
+/// Returns the table of a map: for each method, the number of runs with each verdict.
 pub fn table(map: &Map) -> String {
     let mut text = format!("{}\n\n{:24}", map.survey.title, "");
     for verdict in Verdict::ALL {
@@ -191,7 +192,7 @@ pub fn table(map: &Map) -> String {
     text
 }
 
-/// Prints the table of a map and writes CSV file and chart.
+/// Prints the table of a map, and writes its CSV file and chart.
 ///
 /// # Errors
 /// [`Failure`].

@@ -1,5 +1,5 @@
-//! Where does each truncation of W fail: amplitude of what it takes for small
-//! against the size of the motion that feeds it.
+//! Maps of the region in which each truncated form of W fails. The axes are the amplitude of the
+//! motion that the truncation assumes to be small, and the size of the motion that feeds it.
 
 use branched_pendulum::analysis::truncation::{Background, PhaseAverage, logarithmic};
 use branched_pendulum::{TransferForm, TransferForms};
@@ -16,22 +16,22 @@ const STATES: usize = 400;
 /// Seed of their random numbers.
 const SEED: u64 = 0;
 
-/// Time after the release over which the in-phase motion is looked at, s.
+/// Time after the release during which the in-phase motion is used, in s.
 const BACKGROUND: f64 = 10.0;
 
-/// The worth of a form of W.
+/// Accuracy of a form of W, in classes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Worth {
-    /// Within 1 % of the exact form, rms over rms.
+    /// Error at most 1 % of the exact form, comparing rms values.
     Accurate,
-    /// Wrong by less than the transfer itself.
+    /// Error larger than that, but smaller than the transfer itself.
     Bounded,
-    /// Wrong by more than the transfer itself.
+    /// Error larger than the transfer itself.
     Useless,
 }
 
 impl Worth {
-    /// All of them.
+    /// All truncations.
     pub const ALL: [Self; 3] = [Self::Accurate, Self::Bounded, Self::Useless];
 
     /// As the chart names it.
@@ -54,16 +54,16 @@ impl Worth {
     }
 }
 
-/// The error of a form at an amplitude after a release.
+/// Error of a form of W, for an amplitude and a release.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FormError {
     /// The form.
     pub form: TransferForm,
     /// Amplitude of θ_d, rad.
     pub amplitude: f64,
-    /// Release of the in-phase motion, degrees.
+    /// Angle of release of the in-phase motion, in degrees.
     pub release: f64,
-    /// Rms of (W − W exact) over rms of W exact.
+    /// Rms of the difference from the exact W, divided by the rms of the exact W.
     pub error: f64,
 }
 
@@ -84,7 +84,7 @@ pub fn map(job: &Job) -> Result<Vec<FormError>, Failure> {
     Ok(places)
 }
 
-/// The places of one release, degrees.
+/// Computes the errors after one release (in degrees), at all amplitudes.
 ///
 /// # Errors
 /// [`Failure::Truncation`].
@@ -117,7 +117,7 @@ fn forms() -> impl Iterator<Item = TransferForm> {
     forms.copied().filter(|form| *form != TransferForm::Exact)
 }
 
-/// How many places of each form are worth what.
+/// Returns the table of the number of map points at which each form has each accuracy.
 pub fn table(places: &[FormError]) -> String {
     let mut text = format!(
         "Truncations of W: amplitude of θ_d against release\n\n{:24}",
@@ -168,8 +168,7 @@ pub fn deliver(job: &Job, places: &[FormError]) -> Result<(), Failure> {
     job.print(&table(places))
 }
 
-/// Errors between which the colours of the map change; those of [`Worth`] among
-/// them.
+/// Errors at which the colours of the map change; they include the limits of [`Worth`].
 const LEVELS: [f64; 4] = [1e-4, 0.01, 0.1, 1.0];
 
 fn chart(places: &[FormError]) -> Chart {
@@ -192,8 +191,8 @@ fn chart(places: &[FormError]) -> Chart {
 mod tests {
     use super::{Worth, after};
 
-    /// The published form is never accurate; a higher order is never worth less
-    /// at small amplitudes; none helps at the largest.
+    /// Checks that the published form is never accurate, that a higher order is never worse at
+    /// small amplitudes, and that no order is accurate at the largest.
     #[test]
     fn orders_reach_further_one_after_the_other() {
         let places = after(45.0).unwrap();

@@ -10,22 +10,22 @@ use branched_pendulum_frame::Failure;
 /// The fate of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Verdict {
-    /// The energy is right within 0.1 % of the first; with friction, within
-    /// 0.1 % of that of the reference.
+    /// The energy error stays within 0.1 % of the initial energy; with friction, of the energy of
+    /// the reference.
     Accurate,
-    /// Wrong, and no worse late than early; with friction, never above the
-    /// first energy.
+    /// The energy error is larger but does not grow; with friction, the energy never exceeds its
+    /// initial value.
     Bounded,
-    /// The error of the energy grows; with friction, energy appears.
+    /// The energy error grows; with friction, the energy exceeds its initial value.
     Drifting,
-    /// More than ten times the first energy, or infinite.
+    /// The energy exceeds ten times its initial value, or is not finite.
     Diverged,
-    /// Ended with an error: the step could not be solved, or too many steps.
+    /// The method ended with an error: a step could not be solved, or too many steps were needed.
     Refused,
 }
 
 impl Verdict {
-    /// All of them.
+    /// All verdicts.
     pub const ALL: [Self; 5] = [
         Self::Accurate,
         Self::Bounded,
@@ -46,10 +46,10 @@ impl Verdict {
     }
 }
 
-/// Length of a run without friction, s.
+/// Duration of a run without friction, in s.
 pub const IDEAL_DURATION: f64 = 100.0;
 
-/// Length of a run with friction, s.
+/// Duration of a run with friction, in s.
 pub const DAMPED_DURATION: f64 = 3.0;
 
 fn start(angle_deg: f64) -> State<f64> {
@@ -68,7 +68,7 @@ fn of_error(error: &IntegrationError<f64>) -> Verdict {
     }
 }
 
-/// The verdict on a run without friction, released from `angle_deg`.
+/// Returns the verdict on a run without friction, released from `angle_deg`.
 pub fn ideal(method: Method, setting: f64, angle_deg: f64) -> Verdict {
     let model = BranchedDouble::new();
     let start = start(angle_deg);
@@ -98,10 +98,10 @@ pub fn ideal(method: Method, setting: f64, angle_deg: f64) -> Verdict {
     }
 }
 
-/// Angle from which the runs with friction are released, degrees.
+/// Angle of release of the runs with friction, in degrees.
 pub const DAMPED_ANGLE: f64 = 40.0;
 
-/// The pendulum with the friction `friction` (N m s) in every pivot.
+/// Creates the pendulum with the friction coefficient `friction` (N m s) in every pivot.
 ///
 /// # Errors
 /// [`Failure::Parameter`].
@@ -112,11 +112,11 @@ pub fn damped_model(friction: f64) -> Result<DampedBranchedDouble, Failure> {
     })?)
 }
 
-/// Energy at the end with friction by a method and setting that are known to be
-/// right: Gauss 8 by Newton's method with short steps.
+/// Returns the energy at the end of a run with friction, computed by a method and setting that are
+/// known to be accurate: Gauss 8 with Newton's method and short steps.
 ///
 /// # Errors
-/// As the method's.
+/// Errors of the method.
 pub fn damped_reference(model: &DampedBranchedDouble) -> Result<f64, IntegrationError<f64>> {
     let method = Gauss {
         solver: Solver::Newton,
@@ -127,8 +127,7 @@ pub fn damped_reference(model: &DampedBranchedDouble) -> Result<f64, Integration
     Ok(energy_of(&BranchedDouble::new(), &end.state.values))
 }
 
-/// The verdict on a run with friction whose energy at the end should be
-/// `expected`.
+/// Returns the verdict on a run with friction, whose energy at the end should be `expected`.
 pub fn damped(
     method: Method,
     setting: f64,

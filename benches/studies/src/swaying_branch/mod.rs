@@ -1,11 +1,11 @@
-//! A branch of 31 links in real time: wind with gusts, a hand that pulls and lets go,
-//! and what each model of it costs a frame for which error.
+//! A branch of 31 links in real time: wind with gusts, a hand that pulls and lets go, and the cost
+//! per frame and the error of each of its models.
 //!
 //! - [`arguments`]: the command line,
 //! - [`scene`]: the branch,
 //! - [`weather`]: wind and hand,
-//! - [`motion`]: models, moved by frames, their errors and costs,
-//! - [`storm`]: a storm that hits as well,
+//! - [`motion`]: the models, advanced frame by frame, with their errors and costs,
+//! - [`storm`]: a storm with strong blows,
 //! - [`picture`]: the animated picture, [`report`]: table, frames and chart.
 
 pub mod arguments;
@@ -23,7 +23,7 @@ use branched_pendulum_frame::Job;
 use motion::{Branches, reference};
 use weather::Weather;
 
-/// Moves the branch by all models and draws it.
+/// Simulates the branch with all models, and draws it.
 ///
 /// # Errors
 /// [`Failure`].

@@ -1,4 +1,4 @@
-//! The branch by all models: errors and costs of a frame.
+//! The branch simulated by all models: errors, and costs per frame.
 
 use std::hint::black_box;
 use std::time::Instant;
@@ -12,23 +12,24 @@ use super::scene::{Branch, LINKS};
 use super::weather::Weather;
 use branched_pendulum_frame::Failure;
 
-/// Shares of wind and pull in which models are compared.
+/// Factors by which wind and pull are multiplied in the compared runs.
 pub const WINDS: [f64; 3] = [0.1, 0.4, 1.0];
 
-/// Sub-steps, in the longest that the model asks for.
+/// Lengths of sub-steps, relative to the longest one that the model recommends.
 const SUB_STEPS: [f64; 4] = [0.25, 0.5, 1.0, 2.0];
 
-/// Numbers of modes that truncated models keep.
+/// Numbers of modes that truncated linear models keep.
 const MODES: [usize; 3] = [4, 10, 20];
 
-/// Error up to which the switched model takes the linear one, rad.
+/// Error of the angles (rad) up to which the switching model uses the linear model.
 pub const TOLERANCE: f64 = 0.01;
 
-/// Runs of which the shortest counts, part by part of so many frames.
+/// Number of runs of which the shortest counts; it is determined separately for each part of this
+/// number of frames.
 const RUNS: usize = 9;
 const PART: usize = 30;
 
-/// The branch in both precisions, and its linear model.
+/// The branch in both precisions, with its linear model.
 #[derive(Clone, Debug)]
 pub struct Branches {
     /// In double precision.
@@ -42,7 +43,7 @@ pub struct Branches {
 }
 
 impl Branches {
-    /// Builds all.
+    /// Builds the branches and the linear model.
     ///
     /// # Errors
     /// [`Failure::Linear`].
@@ -57,17 +58,17 @@ impl Branches {
     }
 }
 
-/// The exact motion, frame by frame.
+/// The exact motion, sampled frame by frame.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Seen {
     /// Length of a frame, s.
     pub frame: f64,
-    /// Full states, the first at time 0.
+    /// Full states of the branch; the first is at time 0.
     pub states: Vec<Vec<f64>>,
 }
 
-/// Follows the branch from rest as exactly as the torques are known, which are those at
-/// the begin of each frame throughout it.
+/// Integrates the branch from rest with high accuracy. During each frame, the torques are constant
+/// and have their values at its beginning.
 ///
 /// # Errors
 /// [`Failure::Integration`].
@@ -94,7 +95,7 @@ pub fn reference(
     Ok(Seen { frame, states })
 }
 
-/// A model that moves the branch.
+/// A model that advances the branch frame by frame.
 trait Mover<T> {
     fn advance(&mut self, torques: &[T]);
     fn state_into(&self, state: &mut [T]);
@@ -139,11 +140,11 @@ impl<T: Real, P: Forced<T>, A: ForcedApproximation<T>> Mover<T>
 pub struct Measured {
     /// Kind of the model, with the precision.
     pub kind: String,
-    /// Setting that distinguishes it from others of its kind.
+    /// Setting that distinguishes the model from others of its kind.
     pub setting: String,
-    /// Sub-steps in a frame; 0 where there are none.
+    /// Number of sub-steps per frame; 0 if the model has none.
     pub sub_steps: u32,
-    /// Largest error of an angle, rad.
+    /// Largest error of an angle, in rad.
     pub error: f64,
     /// Time of a frame, µs.
     pub microseconds: f64,
@@ -154,13 +155,13 @@ pub struct Measured {
 pub struct Trial {
     /// Share of wind and pull.
     pub share: f64,
-    /// Largest way of an angle from the equilibrium, rad.
+    /// Largest deviation of an angle from the equilibrium, in rad.
     pub amplitude: f64,
     /// The models.
     pub models: Vec<Measured>,
 }
 
-/// Moves the branch by all models in one wind.
+/// Simulates the branch with all models in one wind.
 ///
 /// # Errors
 /// [`Failure`].
@@ -195,7 +196,7 @@ fn distance(state: &[f64], angles: &[f64]) -> f64 {
     pairs.fold(0.0, |largest, (a, b)| largest.max((a - b).abs()))
 }
 
-/// The motion that all models are to follow.
+/// The exact motion, with which all models are compared.
 struct Course<'a> {
     branches: &'a Branches,
     weather: &'a Weather,
@@ -265,7 +266,8 @@ impl Course<'_> {
         Ok(())
     }
 
-    /// Moves the branch once in its own wind, then with the torques of that run, timed.
+    /// Measures a model in two runs: the first computes the torques from the model's own motion,
+    /// and the second uses these torques and is timed.
     fn measure<T: Real, P: Positions<T>>(
         &self,
         branch: &P,

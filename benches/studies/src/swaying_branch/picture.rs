@@ -7,10 +7,11 @@ use super::scene::{Branch, HELD};
 use super::weather::{PULL, Weather};
 use branched_pendulum_frame::film::{angles, links};
 
-/// Pictures in a second, between which browsers interpolate.
+/// Pictures per second of the film; browsers interpolate between them.
 const RATE: f64 = 20.0;
 
-/// Pixels of the wind's arrow for a metre a second, and where it begins, from the foot.
+/// Length (px) of the wind's arrow for a wind of 1 m/s, and position of its beginning relative to
+/// the foot of the branch.
 const ARROW: f64 = 12.0;
 const VANE: (f64, f64) = (-320.0, -440.0);
 
@@ -23,11 +24,11 @@ const BARK: [Color; 5] = [
     Color::rgb(139, 114, 86),
 ];
 
-/// The branch with leaves, the hand while it holds a bough, and the wind as an arrow of its
-/// speed.
+/// Draws the branch with leaves, the hand while it holds a bough, and the wind as an arrow whose
+/// length shows its speed.
 ///
 /// # Errors
-/// [`ChartError`] if there is nothing to be seen.
+/// [`ChartError`] if the film has no pictures.
 pub fn film(branch: &Branch, seen: &Seen, weather: &Weather) -> Result<Film, ChartError> {
     let stride = (1.0 / (RATE * seen.frame)).round().max(1.0) as usize;
     let interval = seen.frame * stride as f64;
@@ -74,7 +75,7 @@ pub fn film(branch: &Branch, seen: &Seen, weather: &Weather) -> Result<Film, Cha
     Ok(film)
 }
 
-/// Three leaves along a link of this length in px.
+/// Returns the SVG of three leaves along a link of this length in px.
 fn leaves(length: f64) -> String {
     let leaf = |(side, at): (f64, f64)| {
         let (x, y, turn) = (6.0 * side, at * length, 40.0 * side);
@@ -86,7 +87,7 @@ fn leaves(length: f64) -> String {
     [(1.0, 0.55), (-1.0, 0.8), (1.0, 1.0)].map(leaf).concat()
 }
 
-/// Ground, and the wind as an arrow.
+/// Returns the SVG of the ground, and of the wind as an arrow.
 fn wind(film: &Film, speed: impl Fn(usize) -> f64) -> String {
     let (x, y) = VANE;
     let end = |picture: usize| x + ARROW * speed(picture);

@@ -57,7 +57,7 @@ pub fn write_trials(job: &Job, trials: &[Trial]) -> Result<(), Failure> {
     job.chart("swaying-branch-models", &chart(trials))
 }
 
-/// Cost against error, a panel for each wind.
+/// Returns the chart of cost against error, with a panel for each wind.
 fn chart(trials: &[Trial]) -> Chart {
     let title = "Branch of 31 links: cost of a frame against error";
     let chart = Chart::new(title, Axis::log("time of a frame (µs)"));

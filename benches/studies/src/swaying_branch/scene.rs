@@ -1,9 +1,9 @@
-//! The branch: 31 rods that stand up on springs, no two alike.
+//! The branch: 31 rods that stand upright on springs, all of different sizes.
 
 use branched_pendulum::prelude::*;
 
-/// A young tree without its leaves, 2.2 m high: lengths in m, masses in kg, springs in
-/// N m/rad, friction in N m s/rad. Angles are those from the upward vertical.
+/// A young tree without its leaves, 2.2 m high: lengths in m, masses in kg, springs in N m/rad,
+/// friction in N m s/rad. Angles are measured from the upward vertical.
 #[branched_pendulum(
     gravity = -9.80665,
     trunk: rod(mass = 0.8286, length = 0.737, spring = 110.0, friction = 1.2, rest = 0.06) [
@@ -59,5 +59,5 @@ pub struct Branch;
 /// Number of links.
 pub const LINKS: usize = Branch::LINKS;
 
-/// A link half way up, which the hand takes.
+/// Index of the link half way up, which the hand holds.
 pub const HELD: usize = 2;

@@ -1,4 +1,4 @@
-//! A storm that hits the branch now and then.
+//! A storm that gives the branch strong blows at random times.
 
 use branched_pendulum::integrate::{Frames, longest_sub_step};
 use branched_pendulum::prelude::*;
@@ -10,11 +10,11 @@ use super::scene::{Branch, LINKS};
 use super::weather::Weather;
 use branched_pendulum_frame::Failure;
 
-/// Mean speed of the wind, m/s, and force of a hit, N.
+/// Mean speed of the wind (m/s) in the storm, and force of a blow (N).
 const WIND: f64 = 30.0;
 const HIT: f32 = 1e6;
 
-/// Mean number of frames from one hit to the next.
+/// Mean number of frames between two blows.
 const FRAMES_BETWEEN: u64 = 600;
 
 /// Effects of a storm on the branch.
@@ -26,14 +26,14 @@ pub struct Storm {
     pub hits: u64,
     /// States that were not finite.
     pub not_finite: u64,
-    /// Sub-steps in which rates were limited.
+    /// Number of sub-steps in which angular velocities were limited.
     pub limited: u64,
-    /// Largest rate after a frame, rad/s.
+    /// Largest angular velocity after a frame, in rad/s.
     pub largest_rate: f64,
 }
 
 impl Storm {
-    /// Names and values for the record.
+    /// Returns names and values of the counters, for the record of the run.
     pub fn account(&self) -> [(&'static str, u64); 4] {
         [
             ("storm frames", self.frames),
@@ -44,8 +44,8 @@ impl Storm {
     }
 }
 
-/// Moves the branch in single precision through a storm of `seconds`, with hits of a
-/// million newtons at random links.
+/// Simulates the branch in single precision in a storm of `seconds`, with blows of a million
+/// newtons on random links.
 ///
 /// # Errors
 /// [`Failure::Frames`].

@@ -1,4 +1,4 @@
-//! Wind with gusts, and a hand.
+//! Wind with gusts, and a hand that pulls.
 
 use std::f64::consts::TAU;
 
@@ -9,13 +9,13 @@ use rand_xoshiro::rand_core::{Rng, SeedableRng};
 
 use super::scene::{HELD, LINKS};
 
-/// Number of gusts that come and go at once, each in its own time.
+/// Number of simultaneous gusts, each of which rises and falls with its own period.
 const GUSTS: usize = 8;
 
-/// Half the density of air times the breadth of a link with its leaves, kg/m².
+/// Half the density of air times the width of a link with its leaves, in kg/m².
 const SAIL: f64 = 0.5 * 1.2 * 0.03;
 
-/// When the hand takes the branch, and when it lets go, s.
+/// Times at which the hand takes the branch and lets go, in s.
 pub const PULL: (f64, f64) = (1.0, 3.0);
 
 /// Wind and hand.
@@ -23,12 +23,12 @@ pub const PULL: (f64, f64) = (1.0, 3.0);
 pub struct Weather {
     mean: f64,
     pull: f64,
-    /// Frequency (Hz), phase and share of the mean.
+    /// Frequency (Hz), phase (rad) and amplitude (relative to the mean speed) of each gust.
     gusts: [[f64; 3]; GUSTS],
 }
 
 impl Weather {
-    /// Wind with a mean speed (m/s), and a hand with a force (N).
+    /// Creates a wind with a mean speed (m/s), and a hand with a force (N).
     pub fn new(mean: f64, pull: f64, seed: f64) -> Self {
         let mut random = SplitMix64::seed_from_u64(seed as u64);
         let mut share = || random.next_u64() as f64 / u64::MAX as f64;
@@ -49,7 +49,7 @@ impl Weather {
         self.mean * (1.0 + sum)
     }
 
-    /// Force of the hand, N: it takes hold gently.
+    /// Returns the force of the hand in N, which increases gradually when it takes hold.
     pub fn hand(&self, time: f64) -> f64 {
         let (takes, lets_go) = PULL;
         if (takes..lets_go).contains(&time) {
@@ -59,8 +59,8 @@ impl Weather {
         }
     }
 
-    /// Writes the torques on the links of a branch in this state. Air drags with the
-    /// square of its speed past the middles of the links.
+    /// Writes the torques on the links of a branch in this state. The drag of the air acts at the
+    /// middle of each link and is proportional to the square of the relative speed there.
     pub fn torques<T: Real, P: Positions<T>>(
         &self,
         branch: &P,

@@ -4,16 +4,16 @@ use clap::Parser;
 
 use branched_pendulum_frame::command_line::{number, numbers};
 
-/// From which angle on do small differences grow in trees by rule? The smallest of the
-/// angles of the root, all other rods vertical, from which differences of the first
-/// branching grow by a factor within 12.58 of their periods at rest: for 2 to 6
-/// generations of rods, two and three on each, and some ratios of masses and lengths.
+/// From which angle on do small differences grow in trees given by a rule? Finds the
+/// smallest angle of the root (all other rods are vertical) from which differences of the
+/// first branching grow by a given factor within 12.58 of their periods at rest: for 2 to
+/// 6 generations, two or three rods on each rod, and several ratios of masses and lengths.
 ///
-/// The trees have up to 364 rods; their derived equations in phase have one for each
-/// generation. A tree of your own: `branched-pendulum growth`.
+/// The trees have up to 364 rods, but their equations with all copies in phase have only
+/// one link per generation. For your own tree, use `branched-pendulum growth`.
 ///
-/// Every value is computed at two tolerances; where they differ by more than 1 % it
-/// counts as not determined. Nothing is said about angles between those of the scan.
+/// Every value is computed with two tolerances; if the results differ by more than 1 %,
+/// it counts as not determined. Angles between those of the scan are not examined.
 #[derive(Clone, Debug, Parser, PartialEq)]
 #[command(name = "tree-thresholds", version, verbatim_doc_comment)]
 pub struct Arguments {
@@ -28,11 +28,11 @@ pub struct Arguments {
     )]
     // By its full path, clap takes them for one value.
     pub angles_deg: ::std::vec::Vec<f64>,
-    /// growth factor that makes a threshold, 1.1 to 1e12
+    /// growth factor that defines the threshold, 1.1 to 1e12
     #[arg(long, value_name = "G", default_value = "10", value_parser = number(1.1..=1e12, ""))]
     pub level: f64,
-    /// relative error of one integration step, 1e-12 to 1e-3; all is repeated with a
-    /// hundredth of it, whose values are reported
+    /// relative error of one integration step, 1e-12 to 1e-3; everything is repeated with
+    /// a hundredth of it, and the results of the repetition are reported
     #[arg(
         verbatim_doc_comment,
         long,

@@ -5,7 +5,8 @@ use branched_pendulum_charts::{Axis, Chart, Panel, Series};
 use super::arguments::Arguments;
 use super::trees::{COPIES, LENGTHS, MASSES, Threshold};
 
-/// Draws the thresholds of trees against their generations, a panel for each ratio of lengths.
+/// Draws the thresholds of trees against their number of generations, with a panel for each ratio
+/// of lengths.
 pub fn thresholds(arguments: &Arguments, thresholds: &[Threshold]) -> Chart {
     let title = format!(
         "From where differences of the first branching grow {}-fold",

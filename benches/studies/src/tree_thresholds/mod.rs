@@ -1,4 +1,5 @@
-//! Thresholds of growth in trees by rule, by the derived equations of small differences.
+//! Growth thresholds of trees given by a rule, computed by the derived equations for small
+//! differences.
 //!
 //! - [`arguments`]: the command line,
 //! - [`trees`]: the trees and their thresholds,

@@ -1,5 +1,5 @@
-//! The threshold of the first branching of trees by rule: 2 to 6 generations of rods,
-//! two or three on each, by the ratios of their masses and lengths.
+//! The threshold of the first branching, for trees given by a rule: 2 to 6 generations of rods, two
+//! or three children per rod, and several ratios of masses and lengths.
 
 use branched_pendulum::Transverse;
 use branched_pendulum::analysis::growth::{Growth, frequency_at_rest};
@@ -9,11 +9,11 @@ use super::arguments::Arguments;
 use branched_pendulum::system::TransverseOde;
 use branched_pendulum_frame::Failure;
 
-/// Trees of so many generations in phase, two rods on each.
+/// Trees of `generations` generations with all copies in phase and two children per rod.
 macro_rules! trees {
     ($($name:ident, $parameters:ident, $count:tt;)*) => {
         $(
-            /// A tree of rods in phase.
+            /// A tree of rods with all copies in phase.
             #[branched_pendulum(
                 gravity = 9.80665,
                 tree: generations(count = $count, branching = 2, shape = rod, mass = 0.12, length = 0.3,
@@ -53,18 +53,19 @@ trees! {
 pub struct Rule {
     /// Number of generations.
     pub generations: usize,
-    /// Rods that hang from each one.
+    /// Number of rods that hang from each rod.
     pub copies: u32,
-    /// Mass of a rod over that of its parent.
+    /// Mass of a rod divided by that of its parent.
     pub mass_ratio: f64,
-    /// Length of a rod over that of its parent.
+    /// Length of a rod divided by that of its parent.
     pub length_ratio: f64,
 }
 
 impl Rule {
-    /// Returns the ratio of masses with two rods on each that moves alike: in phase k
-    /// copies are one of k times the mass, and differences of the first branching obey
-    /// the equations of one of its subtrees, in which masses count by their ratios alone.
+    /// Returns the ratio of masses of the tree with two children per rod that has the same motion.
+    /// In phase, k copies move like one rod with k times the mass; and differences of the first
+    /// branching obey the equations of one of its subtrees, in which only the ratios of masses
+    /// matter.
     pub fn pair_ratio(&self) -> f64 {
         self.mass_ratio * f64::from(self.copies) / 2.0
     }
@@ -75,22 +76,23 @@ impl Rule {
 pub struct Threshold {
     /// The tree.
     pub rule: Rule,
-    /// Smallest angle of the scan with the growth factor, degrees.
+    /// Smallest angle of the scan (degrees) at which the growth factor is reached; `None` if there
+    /// is none.
     pub angle_deg: Option<f64>,
-    /// False where the growth there is not determined.
+    /// False if the growth factor at that angle is not determined.
     pub determined: bool,
-    /// Growth factor at the first angle of the scan.
+    /// Growth factor at the smallest angle of the scan.
     pub first_factor: f64,
 }
 
 /// Growth factor at an angle, and whether it is determined.
 type Factor = (f64, bool);
 
-/// Periods of the difference at rest over which growth is looked at: 10 s of the paper's
-/// pendulum.
+/// Number of periods of the difference at rest over which growth is computed. It corresponds to 10
+/// s of the paper's pendulum.
 pub const PERIODS: f64 = 12.58;
 
-/// Angles that are computed at a time.
+/// Number of angles that are computed together.
 const BLOCK: usize = 16;
 
 /// Numbers of copies.
@@ -100,12 +102,13 @@ pub const MASSES: [f64; 3] = [0.25, 0.5, 1.0];
 /// Ratios of lengths.
 pub const LENGTHS: [f64; 3] = [0.5, 0.7, 1.0];
 
-/// The equations of differences of the first branching.
+/// Returns the equations of differences of the first branching.
 fn first_branching<P: Transverse<f64>>(model: &P) -> Result<TransverseOde<&P>, Failure> {
     TransverseOde::new(model, 0).ok_or(Failure::NoPair)
 }
 
-/// A release from rest, all rods but the root vertical, with a difference of one of all rods.
+/// Returns a release from rest in which all rods except the root are vertical, with a unit
+/// difference in all rods of the branching.
 fn at_rest<P: Transverse<f64>>(ode: &TransverseOde<&P>, model: &P, root: f64) -> State<f64> {
     let mut angles = vec![0.0; model.links()];
     angles[0] = root.to_radians();
@@ -113,8 +116,9 @@ fn at_rest<P: Transverse<f64>>(ode: &TransverseOde<&P>, model: &P, root: f64) ->
     State::at_rest(0.0, &angles)
 }
 
-/// Releases from rest, the root at every angle and all others vertical, by ascending
-/// angle and not far beyond the threshold: above it motions are chaotic, and dear.
+/// Computes the growth factors for releases from rest in which the root has each angle of the scan
+/// and all others are vertical. Angles ascend and end soon after the threshold, since motions
+/// beyond it are chaotic and expensive.
 fn along<P: Transverse<f64> + Sync>(
     model: &P,
     arguments: &Arguments,

@@ -21,23 +21,22 @@ pub fn measure(problem: &Problem, progress: &Progress) -> WorkPrecision {
 fn measure_on(ode: &impl TaylorOde<f64>, problem: &Problem, progress: &Progress) -> WorkPrecision {
     let start = State::at_rest(0.0, &problem.start);
     let mut done = 0.0;
-    let told = |method: Method, part| {
-        progress.tell(&format!("{}: {}", problem.name, method.title()));
+    let reported = |method: Method, part| {
+        progress.show_message(&format!("{}: {}", problem.name, method.title()));
         progress.advance(part - done);
         done = part;
     };
     let (end, expected) = (problem.end, &problem.expected);
     let methods = WorkPrecision::METHODS;
-    let measured = WorkPrecision::measure(ode, &start, end, expected, &methods, told);
+    let measured = WorkPrecision::measure(ode, &start, end, expected, &methods, reported);
     progress.advance(1.0 - done);
     measured
 }
 
-/// Largest relative error of the energy in each of a hundred parts of 1,000 s
-/// of regular motion.
+/// Largest relative error of the energy in each of a hundred parts of a regular motion of 1,000 s.
 #[derive(Clone, Debug, PartialEq)]
 pub struct EnergyDrift {
-    /// The method and its setting, as the chart names them.
+    /// Method and setting, as the chart names them.
     pub name: String,
     /// End of each part, s.
     pub times: Vec<f64>,
@@ -47,11 +46,11 @@ pub struct EnergyDrift {
     pub evaluations: u64,
 }
 
-/// Follows the energy with every method at one setting each, as one part of
-/// `progress`.
+/// Integrates a regular motion with every method, at one setting each, and records the energy; one
+/// part of `progress`.
 ///
 /// # Errors
-/// As the methods'.
+/// Errors of the methods.
 pub fn energy_drifts(progress: &Progress) -> Result<Vec<EnergyDrift>, IntegrationError<f64>> {
     let model = BranchedDouble::new();
     let start = State::at_rest(0.0, &[0.3, 1e-3, -1e-3]);

@@ -1,8 +1,9 @@
-//! The cost of a given error with each method.
+//! The cost of a given error for each method.
 //!
-//! The apparatus is the paper's, beside seven rods; the equations are those that the macro writes, in absolute angles.
-//! Errors are against the reference trajectories, which come from arbitrary
-//! precision; those of the rods from the same equations in twice the digits.
+//! The trees are the paper's apparatus and seven rods. The equations are those that the macro
+//! generates, in absolute angles. Errors are differences from reference trajectories, which were
+//! computed with arbitrary precision; for the rods, with the same equations and twice the number of
+//! digits.
 //!
 //! - [`mod@reference`]: the trajectories,
 //! - [`measure`]: error, time and evaluations of one run; energy over 1,000 s,
@@ -17,7 +18,7 @@ use clap::Parser;
 use branched_pendulum_frame::Failure;
 use branched_pendulum_frame::Job;
 
-/// What does a given error cost, with which method? Runs the paper's branched
+/// Measures what a given error costs with each method: runs the paper's branched
 /// double pendulum and seven rods with every method at many tolerances or steps,
 /// against reference trajectories, and follows the energy over 1,000 s.
 #[derive(Clone, Debug, Parser, PartialEq)]
@@ -28,7 +29,7 @@ impl branched_pendulum_frame::Arguments for Arguments {
     const FOLDER: Option<&'static str> = Some("work-precision-output");
 }
 
-/// Measures all problems and follows the energy.
+/// Measures all problems, and the energy errors over a long time.
 ///
 /// # Errors
 /// [`Failure`].

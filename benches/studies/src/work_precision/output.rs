@@ -11,10 +11,10 @@ use branched_pendulum_frame::Job;
 /// Errors in the table.
 const LEVELS: [f64; 5] = [1e-3, 1e-6, 1e-9, 1e-12, 1e-14];
 
-/// A problem's name and its runs.
+/// Name of a problem, and its runs.
 pub type Runs = (&'static str, WorkPrecision);
 
-/// The table that the program prints: times, the shortest marked.
+/// Returns the table that the program prints: times, with the shortest marked.
 pub fn table(problems: &[Runs], drifts: &[EnergyDrift]) -> String {
     let mut text = String::from("Time in µs to an error at the end; * the shortest.\n");
     for (name, measured) in problems {
@@ -71,8 +71,8 @@ pub fn write_runs(job: &Job, problems: &[Runs]) -> Result<(), Failure> {
     job.chart("work-precision-evaluations", &work)
 }
 
-/// Writes the energy's errors as a table, a row for each method and part of the
-/// motion, and as a chart.
+/// Writes the energy's errors as a table with a row for each method and part of the motion, and as
+/// a chart.
 ///
 /// # Errors
 /// [`Failure::Csv`], [`Failure::Chart`] or [`Failure::File`].

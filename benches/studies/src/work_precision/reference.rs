@@ -1,6 +1,6 @@
-//! The reference trajectories: `tests/fixtures/reference/trajectories.json` for
-//! the paper's apparatus, and for seven rods, which the file does not have, Taylor
-//! series in numbers of twice the digits.
+//! Reference trajectories: for the paper's apparatus those of
+//! `tests/fixtures/reference/trajectories.json`; for seven rods, which the file does not contain,
+//! Taylor series with twice the number of digits.
 
 use branched_pendulum::prelude::*;
 use branched_pendulum::scalar::Double;
@@ -8,7 +8,7 @@ use branched_pendulum::scalar::Double;
 use crate::scenes::Rods;
 use branched_pendulum_frame::Failure;
 
-/// The file, as it was when the program was built.
+/// Contents of the file when the program was built.
 const FILE: &str = include_str!("../../../../tests/fixtures/reference/trajectories.json");
 
 /// The tree of a problem.
@@ -20,10 +20,10 @@ pub enum Tree {
     Rods,
 }
 
-/// A motion from rest and where it is at a given time.
+/// A motion from rest, with its state at a given time.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Problem {
-    /// Name, as the charts show it.
+    /// Name of the problem in the charts.
     pub name: &'static str,
     /// The tree that moves.
     pub tree: Tree,
@@ -31,16 +31,16 @@ pub struct Problem {
     pub start: Vec<f64>,
     /// The time, s.
     pub end: f64,
-    /// Angles (rad) and velocities (rad/s) then.
+    /// Angles (rad) and velocities (rad/s) at that time.
     pub expected: Vec<f64>,
 }
 
-/// The problems that last for one of these times, s: regular motion for a short and a long
-/// time; motion near the threshold, chaotic, for as long as `f64` can follow it well and for
-/// as long as it can follow it at all; and seven rods.
+/// Returns the problems whose duration (s) is one of `ends`: regular motion for a short and a long
+/// time; chaotic motion near the threshold, for as long as `f64` predicts it well and for as long
+/// as it predicts it at all; and seven rods.
 ///
 /// # Errors
-/// [`Failure::Integration`]: the reference of the rods could not be computed.
+/// [`Failure::Integration`]if the reference of the rods could not be computed.
 pub fn problems(ends: &[f64]) -> Result<Vec<Problem>, Failure> {
     let mut problems = papers();
     problems.retain(|problem| ends.contains(&problem.end));
@@ -80,15 +80,15 @@ fn papers() -> Vec<Problem> {
     ]
 }
 
-/// Angles at the start of the rods, rad: root, then each child with its own.
+/// Initial angles of the seven rods in rad, ordered as the root, then each child followed by its
+/// own children.
 const RODS: [f64; 7] = [0.08, 0.005, 0.002, -0.001, -0.005, 0.0015, -0.003];
 
 /// Tolerance of the rods' reference.
 const TOLERANCE: f64 = 1e-24;
 
-/// Angles (rad) and velocities (rad/s) of the rods at the time `end` (s): the
-/// emitted equations in double-double numbers of 31 digits, by their Taylor
-/// series.
+/// Computes angles (rad) and velocities (rad/s) of the rods at the time `end` (s), from Taylor
+/// series of the emitted equations with 31 digits (double-double numbers).
 ///
 /// # Errors
 /// [`Failure::Integration`].
@@ -105,9 +105,8 @@ pub fn rods_at(end: f64, tolerance: f64) -> Result<Vec<f64>, Failure> {
     Ok(values.map(|value| value.high()).collect())
 }
 
-/// The numbers of the array under the last of `keys`, each key looked for
-/// behind the one before; none if one is missing. The file writes its numbers
-/// as strings.
+/// Returns the numbers of the array under the last of `keys`; each key is searched for after the
+/// previous one. `None` if a key is missing. The file contains its numbers as strings.
 fn numbers(text: &str, keys: &[&str]) -> Vec<f64> {
     let behind = keys.iter().try_fold(text, |text, key| {
         let quoted = format!("\"{key}\":");
@@ -139,8 +138,8 @@ mod tests {
         assert_eq!(problems[2].expected[5], -8.352998681130677);
     }
 
-    /// Orders and steps of another tolerance give the same digits, and so does
-    /// another method as far as its numbers reach.
+    /// Checks that the orders and steps for another tolerance give the same digits, and so does
+    /// another method to within its accuracy.
     #[test]
     fn the_reference_of_the_rods_does_not_depend_on_how_it_is_computed() {
         let problems = problems(&[10.0]).unwrap();

@@ -49,8 +49,16 @@ fn mistakes_are_named() {
 }
 
 #[test]
+fn implementations_agree_before_they_are_timed() {
+    let output = run(EVALUATION_SPEED, &["--check"]);
+    let error = text(&output.stderr);
+    assert!(output.status.success(), "{error}");
+    assert_eq!(text(&output.stdout), "All implementations agree.\n");
+}
+
+#[test]
 fn help_tells_usage_and_defaults() {
-    for (program, told) in [
+    for (program, reported) in [
         (EVALUATION_SPEED, "Usage: evaluation-speed"),
         (INTEGRATION_SPEED, "Usage: integration-speed"),
         (STABILITY_MAP, "Usage: stability-map"),
@@ -60,6 +68,6 @@ fn help_tells_usage_and_defaults() {
         let output = run(program, &["--help"]);
         assert!(output.status.success());
         let help = text(&output.stdout);
-        assert!(help.contains(told), "{help}");
+        assert!(help.contains(reported), "{help}");
     }
 }

@@ -1,41 +1,44 @@
-//! The folder of kept expansions: found, read, written whole, kept small.
+//! Folder of stored expansions: finds, reads and writes it (atomically), and limits its size.
 
 use super::entry::{CacheEntry, HEAD};
 use super::trust;
-use directories::BaseDirs;
+use crate::owned;
+use crate::user_folder::{UserFolder, user_folder};
 use std::ffi::OsString;
-use std::fs::{self, DirBuilder, File, Metadata, OpenOptions};
+use std::fs::{self, File, Metadata};
 use std::io::{self, Read as _, Seek as _, Write as _};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::SystemTime;
 
-/// Most bytes that a folder holds. The paper's pendulum takes 0.1 MB, a budget of
-/// 31 links in all forms 10 MB.
+/// Limit of the total size of the folder's files, in bytes. The paper's pendulum takes 0.1 MB; an
+/// energy budget of 31 links in all forms takes 10 MB.
 const MOST_BYTES: u64 = 256 << 20;
 
-/// Most files that a folder holds.
+/// Limit of the number of files in the folder.
 const MOST_FILES: usize = 512;
 
-/// Name of the folder inside others.
+/// Name of the cache's folder inside the target folder or the user's cache folder.
 const NAME: &str = "branched-pendulum";
 
-/// Files by which cargo's target folder is known: its mark, which copies of the folder
-/// may lack, and what it notes about the compiler.
+/// Files that identify Cargo's target folder: its tag, which copies of the folder may lack, and
+/// Cargo's notes about the compiler.
 const MARKS: [&str; 2] = ["CACHEDIR.TAG", ".rustc_info.json"];
 
-/// The folder for the build of this process: in cargo's target folder, else in
-/// the user's cache folder. `None` if neither is known.
+/// Returns the cache folder for the build of this process: in Cargo's target folder, or otherwise
+/// in the user's cache folder. `None` if neither is known.
 pub(super) fn of_this_build() -> Option<PathBuf> {
     let output = output_folder(std::env::args_os());
     let target = output.as_deref().and_then(target_folder);
-    target.map(|target| target.join(NAME)).or_else(|| {
-        let folders = BaseDirs::new()?;
-        Some(folders.cache_dir().join(NAME).join("expansions"))
-    })
+    target
+        .map(|target| target.join(NAME))
+        .or_else(|| match user_folder() {
+            UserFolder::Cache(folder) => Some(folder.join(NAME).join("expansions")),
+            UserFolder::Homeless | UserFolder::Unknown => None,
+        })
 }
 
-/// The folder that the compiler writes to, by its arguments.
+/// Returns the output folder (`--out-dir`) among the compiler's command-line arguments.
 fn output_folder(mut arguments: impl Iterator<Item = OsString>) -> Option<PathBuf> {
     while let Some(argument) = arguments.next() {
         if argument == "--out-dir" {
@@ -49,17 +52,18 @@ fn output_folder(mut arguments: impl Iterator<Item = OsString>) -> Option<PathBu
     None
 }
 
-/// The target folder that a folder is in.
+/// Returns the target folder that contains the folder `inside`.
 fn target_folder(inside: &Path) -> Option<&Path> {
     let mut above = inside.ancestors();
     above.find(|folder| MARKS.iter().any(|mark| folder.join(mark).is_file()))
 }
 
-/// A folder of files that may vanish at any time, among others that are not the cache's.
+/// A folder of cache files. Any of them can vanish at any time, and files of other programs may be
+/// among them.
 #[derive(Debug, Clone)]
 pub(super) struct Folder {
     path: PathBuf,
-    /// Most files and bytes of the cache's own.
+    /// Limits of the number and of the total bytes of the cache's files.
     most: (usize, u64),
 }
 
@@ -69,70 +73,62 @@ impl Folder {
         Self { path, most }
     }
 
-    /// The text of a file, if it is the cache's and can be read. The file counts as used
-    /// now.
+    /// Reads the text of a file, and marks the file as just used. Returns `None` if the file cannot
+    /// be read or was not written by this cache.
     pub(super) fn read(&self, name: &str) -> Option<String> {
         let path = self.trusted()?.join(name);
         let mut text = String::new();
         own_file(&path)?.read_to_string(&mut text).ok()?;
-        // Old files go first; one that cannot be marked as used is only read again.
-        if let Ok(file) = File::options().append(true).open(path) {
+        // The least recently used files are deleted first. A file whose time cannot be set is read
+        // all the same.
+        if let Ok(file) = owned::open(&path, true) {
             let _ = file.set_modified(SystemTime::now());
         }
         Some(text)
     }
 
-    /// Writes a file, so that nobody ever reads half of it. Whoever cannot write
-    /// derives again the next time.
+    /// Writes a file atomically, so that no reader sees a part of it. If it cannot be written, the
+    /// next build derives the expansion again.
     pub(super) fn write(&self, name: &str, text: &str) {
         let (_, most) = self.most;
         if text.len() as u64 <= most {
             let _ = self.try_write(name, text);
-            let _ = self.make_room();
+            let _ = self.remove_oldest();
         }
     }
 
-    /// The folder, if there is one that this user alone writes.
+    /// Returns the path of the folder, if it exists and only this user can write to it.
     fn trusted(&self) -> Option<&Path> {
-        let private = trust::is_private(&fs::metadata(&self.path).ok()?);
+        let private = owned::is_private(&fs::metadata(&self.path).ok()?);
         if !private {
-            trust::tell(&self.path);
+            trust::warn_once(&self.path);
         }
         private.then_some(&self.path)
     }
 
     fn try_write(&self, name: &str, text: &str) -> io::Result<()> {
         static WRITTEN: AtomicU64 = AtomicU64::new(0);
-        private_folder().create(&self.path)?;
+        owned::create_folder(&self.path)?;
         let Some(path) = self.trusted() else {
             return Ok(());
         };
-        let whole = path.join(name);
-        if fs::symlink_metadata(&whole).is_ok() && own_file(&whole).is_none() {
-            // Somebody else's.
-            return Ok(());
-        }
         let number = WRITTEN.fetch_add(1, Ordering::Relaxed);
         let part = path.join(CacheEntry::part_name(name, std::process::id(), number));
-        let mut file = private_file().open(&part)?;
-        let written = file.write_all(text.as_bytes());
-        // Clocks of file systems are coarser than this one, by which others are marked as used.
-        let _ = file.set_modified(SystemTime::now());
-        drop(file);
-        let written = written.and_then(|()| fs::rename(&part, &whole));
-        if written.is_err() {
-            let _ = fs::remove_file(&part);
-        }
-        written
+        owned::install(&part, &path.join(name), is_own, |file| {
+            file.write_all(text.as_bytes())?;
+            // Set the time explicitly, as for files in use: clocks of file systems are coarser than
+            // the system clock.
+            let _ = file.set_modified(SystemTime::now());
+            Ok(())
+        })
     }
 
-    /// Removes those of the cache's files that have not been used for longest, until the
-    /// rest is within the limits.
-    fn make_room(&self) -> io::Result<()> {
+    /// Removes the least recently used files of the cache until the rest is within the limits.
+    fn remove_oldest(&self) -> io::Result<()> {
         let mut files = Vec::new();
         for entry in fs::read_dir(&self.path)? {
             let entry = entry?;
-            // Others remove files too.
+            // Other processes remove files too.
             if CacheEntry::is_name(&entry.file_name())
                 && let Some(file) = own_file(&entry.path())
                 && let Ok(data) = file.metadata()
@@ -148,7 +144,7 @@ impl Folder {
             if bytes <= most_bytes && count <= most_files {
                 break;
             }
-            let _ = fs::remove_file(path);
+            owned::remove(&path, is_own);
             bytes -= length;
             count -= 1;
         }
@@ -156,12 +152,11 @@ impl Folder {
     }
 }
 
-/// Opens a file that the cache has written and nobody else, known by its head. What is no
-/// plain file is not opened: a pipe would wait for a writer.
+/// Opens a file only if its first bytes show that this cache wrote it. Anything but a regular file
+/// is skipped: opening a pipe would wait for a writer.
 fn own_file(path: &Path) -> Option<File> {
-    let is_plain = |data: &Metadata| data.is_file() && trust::is_private(data);
-    fs::symlink_metadata(path).ok().filter(is_plain)?;
-    let mut file = File::open(path).ok()?;
+    let is_plain = |data: &Metadata| data.is_file() && owned::is_private(data);
+    let mut file = owned::open(path, false).ok()?;
     file.metadata().ok().filter(is_plain)?;
     let mut head = [0; HEAD];
     file.read_exact(&mut head).ok()?;
@@ -169,22 +164,9 @@ fn own_file(path: &Path) -> Option<File> {
     CacheEntry::is_head(&head).then_some(file)
 }
 
-/// What makes a folder that only its user writes, whatever others may by default.
-fn private_folder() -> DirBuilder {
-    let mut builder = DirBuilder::new();
-    builder.recursive(true);
-    #[cfg(unix)]
-    std::os::unix::fs::DirBuilderExt::mode(&mut builder, 0o700);
-    builder
-}
-
-/// What makes a new file that only its user writes.
-fn private_file() -> OpenOptions {
-    let mut options = OpenOptions::new();
-    options.write(true).create_new(true);
-    #[cfg(unix)]
-    std::os::unix::fs::OpenOptionsExt::mode(&mut options, 0o600);
-    options
+/// Returns true for a file that this cache wrote.
+fn is_own(path: &Path) -> bool {
+    own_file(path).is_some()
 }
 
 #[cfg(test)]

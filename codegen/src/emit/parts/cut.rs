@@ -1,5 +1,4 @@
-//! The cut of a long function into parts, and the values that its parts hand to
-//! each other.
+//! Splits a long function into parts, and determines the values that the parts pass to each other.
 
 use super::{FunctionPart, FunctionParts, MOST_IN_PART};
 use crate::emit::Emission;
@@ -19,8 +18,8 @@ impl Emission<'_> {
         matches!(self.op(id), Op::Input(..))
     }
 
-    /// Cuts the lines of a function into parts. Numbers are written again in
-    /// every part that uses them.
+    /// Splits the lines of a function into parts. Lines that define numeric constants are repeated
+    /// in every part that uses them.
     pub(in crate::emit) fn parts(
         &self,
         outputs: &[ValueId],
@@ -40,7 +39,7 @@ impl Emission<'_> {
         FunctionParts::new(parts, &outputs)
     }
 
-    /// Pieces of few lines and few values from outside.
+    /// Splits lines into pieces with few lines and few values from earlier pieces.
     fn pieces<'l>(&self, lines: &'l [&'l Line], locals: &Locals) -> Vec<&'l [&'l Line]> {
         let mut pieces = Vec::new();
         let (mut start, mut height) = (0, 0);
@@ -53,7 +52,7 @@ impl Emission<'_> {
             let own = line.height;
             height += own;
             seen.extend(&touched);
-            // Values count once, whether they come from outside or are made.
+            // Each value counts once, whether it comes from outside or is computed here.
             if height + seen.len() > MOST_IN_PART && index > start {
                 pieces.push(&lines[start..index]);
                 (start, height, seen) = (index, own, touched);
@@ -63,8 +62,8 @@ impl Emission<'_> {
         pieces
     }
 
-    /// A piece as a part; `wanted` are the values that later parts and the
-    /// outputs read, and then those that this part reads too.
+    /// Converts a piece to a part. `wanted` holds the values that later parts and the outputs read;
+    /// the values that this part reads are added.
     fn part(
         &self,
         number: usize,

@@ -1,9 +1,8 @@
-//! Long functions in parts: readers tire, and the compiler's passes over one
-//! function take longer than in proportion to its length.
+//! Splitting of long functions into parts: for readers, and because the compiler's passes take a
+//! time that grows faster than the length of a function.
 //!
-//! Parts hand their values to each other in one array, which the function
-//! holds. A slot in it serves another value as soon as no later part reads the
-//! one that it held.
+//! Parts pass values to each other in one array of the function. A slot of the array is reused as
+//! soon as no later part reads its value.
 
 mod cut;
 
@@ -17,19 +16,19 @@ use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Lines of a part, at most about, those included that take values from the
-/// array and put them there.
+/// Approximate largest number of lines of a part, including those that read values from the array
+/// and write them to it.
 const MOST_IN_PART: usize = 640;
 
-/// The array of the values that parts share.
+/// Name of the array of values that parts share.
 pub(super) const SHARED: &str = "shared_values";
 
-/// Some lines of a function, with what goes in and out.
+/// Some lines of a function, with the values that they receive and return.
 pub(super) struct FunctionPart {
     pub(super) number: usize,
-    /// Arguments of the function that are handed on.
+    /// Arguments of the function that are passed to the part.
     arguments: Vec<Argument>,
-    /// Elements that are read of them.
+    /// Elements of these arguments that the part reads.
     pub(super) inputs: Vec<ValueId>,
     receives: Vec<ValueId>,
     returns: Vec<ValueId>,
@@ -39,15 +38,15 @@ pub(super) struct FunctionPart {
 /// A long function in parts.
 pub(super) struct FunctionParts {
     pub(super) parts: Vec<FunctionPart>,
-    /// Slots of values in the array.
+    /// Slots of the values in the array.
     slots: BTreeMap<ValueId, usize>,
     /// Length of the array.
     pub(super) size: usize,
 }
 
 impl FunctionParts {
-    /// Gives every value that parts return a slot, free ones first. Outputs
-    /// keep theirs to the end.
+    /// Assigns a slot to every value that parts return, reusing free slots. Outputs keep theirs
+    /// until the end.
     fn new(parts: Vec<FunctionPart>, outputs: &BTreeSet<ValueId>) -> Self {
         let mut last_read = BTreeMap::new();
         for part in &parts {
@@ -55,7 +54,7 @@ impl FunctionParts {
         }
         let (mut slots, mut size, mut free) = (BTreeMap::new(), 0, Vec::new());
         for part in &parts {
-            // Received values are read before any is returned.
+            // A part reads its received values before it returns any.
             let done = part.receives.iter();
             let done = done.filter(|id| last_read[id] == part.number && !outputs.contains(id));
             free.extend(done.map(|id| slots[id]));
@@ -77,7 +76,8 @@ impl FunctionParts {
 }
 
 impl Emission<'_> {
-    /// Returns true if the named values alone, of a line each at least, make a function long.
+    /// Returns true if the named values alone, with at least one line each, make the function too
+    /// long.
     pub(super) fn surely_long(&self, locals: &Locals) -> bool {
         let lines = locals.names.keys().filter(|id| {
             !matches!(
@@ -88,7 +88,7 @@ impl Emission<'_> {
         lines.count() > MOST_LINES
     }
 
-    /// Names the outputs of a long function: its parts form them.
+    /// Names the outputs of a long function, because its parts compute them.
     pub(super) fn name_outputs(&self, entry: &Entry, locals: &mut Locals) {
         locals.fresh(SHARED.to_owned());
         for (number, &id) in entry.outputs.iter().enumerate() {
@@ -99,7 +99,7 @@ impl Emission<'_> {
         }
     }
 
-    /// The body of a long function, and the functions behind it.
+    /// Returns the body of a long function, and the functions that follow it.
     pub(super) fn in_parts(
         &self,
         entry: &Entry,
@@ -146,7 +146,7 @@ impl Emission<'_> {
         (body, self.functions_of_parts(entry, &parts, lines, locals))
     }
 
-    /// The functions that the parts are.
+    /// Returns the functions of the parts.
     fn functions_of_parts(
         &self,
         entry: &Entry,
@@ -176,7 +176,8 @@ impl Emission<'_> {
         functions.collect()
     }
 
-    /// An output of a long function, from its arguments or from the values that its parts share.
+    /// Returns the expression of an output of a long function, which reads an argument or the array
+    /// of shared values.
     fn output_of_parts(&self, id: ValueId, parts: &FunctionParts, locals: &Locals) -> TokenStream {
         match *self.op(id) {
             Op::Input(Argument::Time, _) => self.bound(id, locals, Binding::Sum),
@@ -200,9 +201,9 @@ impl Emission<'_> {
         }
     }
 
-    /// The parts of the accelerations, if these are long. As implementations of
-    /// a trait they are compiled for the instructions that the scalar stands
-    /// for, which plain functions would not be.
+    /// Emits the parts of the accelerations if these are long. They are implementations of a trait,
+    /// so that they are compiled for the instruction set of the scalar; plain functions would not
+    /// be.
     pub(super) fn part_implementations(&self) -> TokenStream {
         let Some(entry) = self.entry(Purpose::Accelerations) else {
             return TokenStream::new();
@@ -249,11 +250,11 @@ impl Emission<'_> {
     ) -> TokenStream {
         let elements = part.arguments.iter();
         let elements = elements.filter(|argument| self.reads(**argument, &part.inputs));
-        let elements = elements.map(|&argument| self.take_apart(argument, &part.inputs, locals));
+        let elements = elements.map(|&argument| self.destructure(argument, &part.inputs, locals));
         self.part_lines(part, parts, locals, elements.collect())
     }
 
-    /// The lines of a part behind those that read its inputs.
+    /// Returns the lines of a part, after those that read its inputs.
     pub(super) fn part_lines(
         &self,
         part: &FunctionPart,
@@ -275,7 +276,7 @@ impl Emission<'_> {
         }
     }
 
-    /// The named values that a value is written in.
+    /// Returns the named values that the expression of a value uses.
     pub(super) fn named_operands(
         &self,
         id: ValueId,
@@ -292,7 +293,7 @@ impl Emission<'_> {
     }
 }
 
-/// Several things as one: a tuple, or the only one.
+/// Combines several items into a tuple; a single item is returned unchanged.
 fn together(parts: Vec<TokenStream>) -> TokenStream {
     match parts.as_slice() {
         [only] => only.clone(),

@@ -1,6 +1,5 @@
-//! Substitute of the model when the description is wrong: the type and its
-//! methods without meaning, so that an editor shows the description's errors
-//! and no others.
+//! Stub that replaces the model if the description is wrong: the type and its methods without an
+//! implementation, so that an editor shows only the errors of the description.
 
 mod sectors;
 
@@ -10,14 +9,14 @@ use crate::functions::{Argument, Naming, Purpose, Signature, is_method};
 use crate::scene::is_keyword;
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{ToTokens, format_ident, quote};
-use sectors::{places, sector_count};
+use sectors::{difference_names, sector_count};
 use std::collections::BTreeSet;
 
-/// Stands for the number of links, which a wrong description need not tell.
+/// Stand-in for the number of links, which may be unknown in a wrong description.
 const LINKS: usize = usize::MAX;
 
-/// The type and its documented methods as stubs. They are never run: the
-/// errors beside them keep the crate from compiling.
+/// Emits the type and its documented methods as stubs. They never run, because the errors emitted
+/// with them stop the build.
 pub fn stub(description: &Description, runtime: &TokenStream) -> TokenStream {
     let item = &description.item;
     let constructors = constructors(description, runtime);
@@ -25,10 +24,9 @@ pub fn stub(description: &Description, runtime: &TokenStream) -> TokenStream {
     let naming = naming(description);
     let functions = functions(&naming, runtime);
     let taylor = taylor(description, runtime);
-    let prescribed = prescribed(&naming, name, runtime);
     let (equations, quantities) = (equations(name, runtime), quantities(name, runtime));
-    let computed = ["AccelerationsUnderTorques", "SymmetricAccelerations"]
-        .map(|function| computed(name, runtime, function));
+    let on_slices = Purpose::all_slices().into_iter();
+    let on_slices = on_slices.map(|function| computed(name, runtime, function.name));
     quote! {
         #(#attrs)*
         #vis struct #name<T = f64>(::core::marker::PhantomData<T>);
@@ -42,17 +40,15 @@ pub fn stub(description: &Description, runtime: &TokenStream) -> TokenStream {
 
         #equations
 
-        #(#computed)*
+        #(#on_slices)*
 
         #quantities
-
-        #prescribed
 
         #taylor
     }
 }
 
-/// The traits of a model's links and of its equations of motion.
+/// Emits the traits of a model's links and of its equations of motion.
 fn equations(name: &Ident, runtime: &TokenStream) -> TokenStream {
     let other = super::other_scalar(name);
     quote! {
@@ -102,7 +98,7 @@ fn equations(name: &Ident, runtime: &TokenStream) -> TokenStream {
     }
 }
 
-/// The traits of what follows from a state beside accelerations.
+/// Emits the traits of quantities other than accelerations that depend on a state.
 fn quantities(name: &Ident, runtime: &TokenStream) -> TokenStream {
     quote! {
         impl<T: #runtime::Scalar> #runtime::TransferForms<T> for #name<T> {
@@ -128,6 +124,37 @@ fn quantities(name: &Ident, runtime: &TokenStream) -> TokenStream {
             ) {}
         }
 
+        impl<T: #runtime::Scalar> #runtime::Prescribed<T> for #name<T> {
+            fn prescribed_links(&self, _: usize) -> ::core::option::Option<&[usize]> {
+                ::core::option::Option::None
+            }
+        }
+
+        impl<T: #runtime::Scalar> #runtime::Transverse<T> for #name<T> {
+            const TRANSVERSE: &'static [#runtime::system::TransverseSector] = &[];
+            fn transverse_accelerations_into(
+                &self, _: usize, _: T, _: #runtime::system::InPhaseMotion<'_, T>,
+                _: &[T], _: &[T], _: &mut [T],
+            ) {}
+            fn transverse_energy_of(&self, _: usize, _: &[T], _: &[T], _: &[T]) -> T {
+                ::core::unimplemented!()
+            }
+            fn transverse_transfer_of(
+                &self, _: usize, _: T, _: #runtime::system::InPhaseMotion<'_, T>,
+                _: &[T], _: &[T],
+            ) -> T { ::core::unimplemented!() }
+            fn transverse_friction_power_of(&self, _: usize, _: &[T]) -> T {
+                ::core::unimplemented!()
+            }
+        }
+
+        impl<T: #runtime::Scalar> #runtime::SmallDifferences<T> for #name<T> {
+            const SMALL: &'static [usize] = &[];
+            fn small_energy_of(&self, _: &[T], _: &[T], _: &[T], _: &[T]) -> T {
+                ::core::unimplemented!()
+            }
+        }
+
         impl<T: #runtime::Scalar> #runtime::Energy<T> for #name<T> {
             fn kinetic_energy_of(&self, _: &[T], _: &[T]) -> T { ::core::unimplemented!() }
             fn potential_energy_of(&self, _: &[T]) -> T { ::core::unimplemented!() }
@@ -135,10 +162,10 @@ fn quantities(name: &Ident, runtime: &TokenStream) -> TokenStream {
     }
 }
 
-/// Names that functions are called after, as far as the description tells them.
+/// Returns the naming of functions, as far as the description determines it.
 fn naming(description: &Description) -> Naming {
-    // Where there are several differences, each has its functions.
-    let places = places(description).into_iter();
+    // If there are several differences, each has its own functions.
+    let places = difference_names(description).into_iter();
     let places = places.map(|place| format!("_{place}"));
     let prescribed = description.prescribed.iter().map(|clause| {
         let links: Vec<String> = clause.links.iter().map(Ident::to_string).collect();
@@ -158,8 +185,8 @@ fn naming(description: &Description) -> Naming {
     }
 }
 
-/// The functions that the model may have, as far as they can stand beside each other; what
-/// is no method of plain arrays is left out.
+/// Emits the functions that the model may have, as far as they do not conflict; functions that do
+/// not take plain arrays are left out.
 fn functions(naming: &Naming, runtime: &TokenStream) -> TokenStream {
     use Purpose::{
         Drive, SmallAccelerations, SmallAccelerationsUnder, SmallEnergy, TaylorCoefficients,
@@ -208,7 +235,7 @@ fn functions(naming: &Naming, runtime: &TokenStream) -> TokenStream {
     functions.collect()
 }
 
-/// A function of a state.
+/// Emits a function of a state.
 fn computed(name: &Ident, runtime: &TokenStream, function: &str) -> TokenStream {
     let (other, function) = (super::other_scalar(name), format_ident!("{function}"));
     quote! {
@@ -224,23 +251,7 @@ fn computed(name: &Ident, runtime: &TokenStream, function: &str) -> TokenStream 
     }
 }
 
-/// The trait of prescribed links.
-fn prescribed(naming: &Naming, name: &Ident, runtime: &TokenStream) -> Option<TokenStream> {
-    (!naming.prescribed.is_empty()).then(|| {
-        let computed = computed(name, runtime, "AccelerationsOfHeldLinks");
-        quote! {
-            #computed
-
-            impl<T: #runtime::Scalar> #runtime::Prescribed<T> for #name<T> {
-                fn prescribed_links(&self, _: usize) -> ::core::option::Option<&[usize]> {
-                    ::core::option::Option::None
-                }
-            }
-        }
-    })
-}
-
-/// The Taylor coefficients, where they are asked for.
+/// Emits the Taylor coefficients, if requested.
 fn taylor(description: &Description, runtime: &TokenStream) -> Option<TokenStream> {
     let name = &description.item.ident;
     let other = super::other_scalar(name);
@@ -280,13 +291,13 @@ fn taylor(description: &Description, runtime: &TokenStream) -> Option<TokenStrea
     })
 }
 
-/// Returns true if a name may stand in a stub: no keyword, and spelt in one way only.
+/// Returns true if a name may be used in a stub: it is not a keyword and has only one spelling.
 fn is_plain(name: &str) -> bool {
     syn::parse_str::<Ident>(name).is_ok() && !is_keyword(name) && !name.starts_with("r#")
 }
 
-/// As the model would have them: with the parameters that the description
-/// names, or without any.
+/// Emits the constructors of the model: with the parameters that the description names, or without
+/// any.
 fn constructors(description: &Description, runtime: &TokenStream) -> TokenStream {
     let (vis, name) = (&description.item.vis, &description.item.ident);
     let mut names = description.parameter_names();
@@ -342,10 +353,10 @@ fn constructors(description: &Description, runtime: &TokenStream) -> TokenStream
     }
 }
 
-/// As a model without parameters would have them.
+/// Emits the constructors of a model without parameters.
 fn constructor_of_numbers(description: &Description) -> TokenStream {
     let name = &description.item.ident;
-    // One that is derived is refused, and there all the same.
+    // A derived `Default` is reported as an error, and exists nevertheless.
     let default = description.item.derived("Default").is_none().then(|| {
         quote! {
             #[allow(missing_docs, clippy::all)]

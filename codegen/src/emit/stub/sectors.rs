@@ -1,15 +1,15 @@
-//! Sectors of a wrong description, as far as it tells them.
+//! Sectors of an invalid description, as far as they can be determined.
 
 use super::is_plain;
 use crate::description::{Description, Expression, ExpressionKind, Node, Value};
 use std::collections::BTreeSet;
 
-/// Results of more elements say no more about a description that is wrong.
+/// Limit on the number of sectors of an invalid description; more would not be useful.
 const MOST_SECTORS: usize = 1024;
 
-/// Names of the differences of groups of single links, each once: names of links
-/// may be wrong.
-pub(super) fn places(description: &Description) -> BTreeSet<String> {
+/// Returns the names of the differences between copies that are single links. A set, because names
+/// in an invalid description may be repeated.
+pub(super) fn difference_names(description: &Description) -> BTreeSet<String> {
     let mut groups: Vec<(String, usize)> = Vec::new();
     let mut pending: Vec<&Node> = description.roots.iter().collect();
     while let Some(node) = pending.pop() {
@@ -36,15 +36,14 @@ pub(super) fn places(description: &Description) -> BTreeSet<String> {
     names.collect()
 }
 
-/// Number of sectors that the tree has, as far as that can be read.
+/// Returns the number of sectors of the tree, as far as it can be determined.
 pub(super) fn sector_count(description: &Description) -> usize {
     let differences = description.roots.iter().map(differences);
     let sectors = differences.fold(1_usize, usize::saturating_add);
     sectors.min(MOST_SECTORS)
 }
 
-/// Differences between copies in a subtree: a group of k has k − 1 of them
-/// everywhere it stands.
+/// Counts the differences between copies in a subtree: every group of k copies has k − 1.
 fn differences(node: &Node) -> usize {
     let copies = node.copies.map_or(1, |copies| copies.count.max(1) as usize);
     let below = if node
@@ -52,11 +51,15 @@ fn differences(node: &Node) -> usize {
         .as_ref()
         .is_some_and(|shape| shape == "generations")
     {
-        // Σ (k − 1) kⁱ over all generations but the last.
+        // Σ (k − 1) kⁱ over all generations except the last.
         let branching = rule_count(node, "branching").unwrap_or(1);
         let generations = rule_count(node, "count").unwrap_or(1);
         let power = u32::try_from(generations.saturating_sub(1)).unwrap_or(u32::MAX);
-        branching.saturating_pow(power).saturating_sub(1)
+        match rule_count(node, "open") {
+            // One open branching per generation.
+            Some(_) => generations.saturating_sub(1),
+            None => branching.saturating_pow(power).saturating_sub(1),
+        }
     } else {
         let children = node.children.iter().map(differences);
         children.fold(0, usize::saturating_add)
@@ -64,7 +67,7 @@ fn differences(node: &Node) -> usize {
     copies.saturating_mul(below).saturating_add(copies - 1)
 }
 
-/// A whole number that a rule gives.
+/// Returns a whole number among the properties of a rule.
 fn rule_count(node: &Node, name: &str) -> Option<usize> {
     let property = node.properties.iter().find(|p| p.name == name)?;
     match &property.value {

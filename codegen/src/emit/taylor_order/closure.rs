@@ -1,4 +1,4 @@
-//! The closure that gives one order of the coefficients.
+//! The closure that returns one order of the coefficients.
 
 use super::super::tokens::{Binding, ident};
 use super::{Factor, Recurrences};
@@ -8,7 +8,8 @@ use proc_macro2::{Ident, Literal, TokenStream};
 use quote::quote;
 
 impl Recurrences<'_> {
-    /// The coefficient of order k of the bias, of what is known of that order.
+    /// Emits the closure that computes the coefficient of order k of the bias from the known
+    /// coefficients of that order.
     pub(in crate::emit) fn closure(&self) -> TokenStream {
         let (runtime, links) = (self.emission.runtime(), self.emission.links());
         let known = &self.known;
@@ -39,8 +40,8 @@ impl Recurrences<'_> {
         }
     }
 
-    /// The order as an index, as a number with its inverse, and the coefficient of the time, as
-    /// far as anything reads them.
+    /// Emits, if they are used, the order as an index, as a number and as its inverse, and the
+    /// coefficient of the time.
     fn numbers_of_order(&self) -> TokenStream {
         let (runtime, k, known) = (self.emission.runtime(), &self.order, &self.known);
         let (order, inverse) = (&self.order_number, &self.inverse_order);
@@ -63,7 +64,7 @@ impl Recurrences<'_> {
         quote!(#counter #numbers #time)
     }
 
-    /// Takes the sums of products Σ u[j] v[k−j] over the orders between.
+    /// Emits the sums of products Σ u[j] v[k−j] over 0 < j < k.
     fn sums_of_products(&self) -> TokenStream {
         let (runtime, k) = (self.emission.runtime(), &self.order);
         let quads = self.sums.chunks(4).enumerate().map(|(quad, sums)| {
@@ -81,7 +82,8 @@ impl Recurrences<'_> {
         }
     }
 
-    /// Keeps the coefficients of order k of the factors for the sums of higher orders.
+    /// Emits the lines that store the factors' coefficients of order k, for the sums of higher
+    /// orders.
     fn factors(&self) -> TokenStream {
         let (k, order) = (&self.order, &self.order_number);
         let side = |side: usize| {
@@ -98,7 +100,7 @@ impl Recurrences<'_> {
         quote!(factors[#k - 1] = [[#(#left),*], [#(#right),*]];)
     }
 
-    /// `Quad([a, b, c, d]), …`, filled up to whole quads by zeros.
+    /// Returns `Quad([a, b, c, d]), …`, padded with zeros to whole quads.
     fn in_quads(&self, values: impl Iterator<Item = TokenStream>) -> Vec<TokenStream> {
         let runtime = self.emission.runtime();
         let mut values: Vec<TokenStream> = values.collect();
@@ -109,7 +111,7 @@ impl Recurrences<'_> {
             .collect()
     }
 
-    /// Given coefficients of order k, taken apart.
+    /// Emits the known coefficients of order k, split into elements.
     fn inputs(&self) -> TokenStream {
         let angle = |index: usize| self.find(&Op::Input(Argument::Theta, index));
         let lists = [
@@ -121,7 +123,7 @@ impl Recurrences<'_> {
         lists.into_iter().flatten().collect()
     }
 
-    /// `let [theta_parent_k, _, theta_bob_k] = known.theta;`, if any is read.
+    /// Returns `let [theta_parent_k, _, theta_bob_k] = known.theta;`, if any element is used.
     fn list(&self, list: &str, op: impl Fn(usize) -> Option<Op>) -> Option<TokenStream> {
         let name = |index| {
             let id = self.find(&op(index)?).filter(|id| self.is_read(*id))?;
@@ -137,8 +139,8 @@ impl Recurrences<'_> {
         read.then(|| quote!(let [#(#elements),*] = #known.#list;))
     }
 
-    /// Returns true if a coefficient of order k that is given is read: sines
-    /// and cosines are given as angles are, none is formed of the other.
+    /// Returns true if a known coefficient of order k is used. Sines and cosines are known like
+    /// angles, and are not computed from each other.
     fn is_read(&self, id: ValueId) -> bool {
         let formed = |other: &&ValueId| !self.is_given(self.emission.op(**other));
         let mut formed = self.needed.iter().filter(formed);

@@ -1,11 +1,10 @@
-//! One order of the Taylor coefficients of what the runtime's recurrences of a
-//! tree do not know: friction, springs, drives.
+//! One order of the Taylor coefficients of the terms that the runtime's recurrences of a tree do
+//! not contain: friction, springs, drives.
 //!
-//! The coefficient of order k of a product, a quotient, a sine or a root is a
-//! sum of products of coefficients below k, Σ_{0<j<k} u[j] v[k−j], and what the
-//! coefficients of order k and 0 add to it. No such sum depends on another one
-//! of its order, so that all are formed at once, side by side; what is added
-//! last is newest, and in general largest.
+//! The coefficient of order k of a product, a quotient, a sine or a root is a sum of products of
+//! coefficients of orders below k, Σ_{0<j<k} u[j] v[k−j], plus a contribution of the coefficients
+//! of order k and 0. No such sum depends on another sum of the same order, so that all are computed
+//! together. The contribution is added last; it is usually the largest term.
 
 mod closure;
 
@@ -18,39 +17,39 @@ use proc_macro2::{Ident, Literal, TokenStream};
 use quote::quote;
 use std::collections::BTreeMap;
 
-/// One factor of the products in a sum.
+/// A factor of the products in a sum.
 #[derive(Clone, Copy)]
 enum Factor {
-    /// u[j].
+    /// Coefficient u[j] of a value.
     Value(ValueId),
-    /// j u[j]: the rate of change of an angle.
+    /// Product j u[j] for an angle u: the coefficient of its rate of change.
     Rate(ValueId),
 }
 
-/// The sum of products that an operation needs in each order.
+/// Sum of products that an operation needs in each order.
 struct ProductSum {
     of: Op,
     name: Ident,
     factors: [Factor; 2],
 }
 
-/// All orders of the rest of the equation of motion.
+/// Recurrences of all terms of the equations of motion that the runtime's own recurrences do not
+/// contain.
 pub(super) struct Recurrences<'e> {
     pub(super) emission: &'e Emission<'e>,
     entry: &'e Entry,
     bias: &'e [ValueId],
-    /// Values that the coefficients of the bias need.
+    /// Values that the coefficients of the bias depend on.
     needed: Vec<ValueId>,
     links: usize,
     /// Names of the coefficients of order 0.
     pub(super) locals: Locals,
-    /// Names of those of order k.
+    /// Names of the coefficients of order k.
     names: BTreeMap<ValueId, Ident>,
     /// True for values that depend on the state or the time.
     pub(super) varies: BTreeMap<ValueId, bool>,
     sums: Vec<ProductSum>,
-    /// Names of k and of the structure that holds the coefficients of the
-    /// state.
+    /// Name of the order k, and name of the struct that contains the coefficients of the state.
     order: Ident,
     known: Ident,
     order_number: Ident,
@@ -114,8 +113,8 @@ impl<'e> Recurrences<'e> {
         recurrences
     }
 
-    /// The entry for order 0: what starts the expansion, and what is read again
-    /// in order k.
+    /// Returns the entry point for order 0: it computes the initial values of the expansion, and
+    /// the values that are used again in order k.
     pub(super) fn start(&self, of_all: &TaylorOutputs) -> Entry {
         let mut outputs = of_all.roots();
         outputs.extend(&of_all.bias);
@@ -128,28 +127,28 @@ impl<'e> Recurrences<'e> {
         }
     }
 
-    /// Returns true if the recurrences of the tree are all there is.
+    /// Returns true if the equations have no terms other than those of the runtime's recurrences.
     pub(super) fn is_empty(&self) -> bool {
         self.bias.iter().all(|id| !self.varies[id])
     }
 
-    /// Quads of sums of products.
+    /// Returns the number of quads that hold the sums of products.
     fn quads(&self) -> usize {
         self.sums.len().div_ceil(4)
     }
 
-    /// Number of sums of products in each order.
+    /// Returns the number of sums of products in each order.
     pub(super) fn count(&self) -> usize {
         self.sums.len()
     }
 
-    /// Quads that the sums add to the workspace.
-    pub(super) fn room(&self) -> Option<TokenStream> {
+    /// Returns the number of quads by which the sums extend the workspace.
+    pub(super) fn workspace_len(&self) -> Option<TokenStream> {
         let size = Literal::usize_unsuffixed(2 * self.quads());
         (self.quads() > 0).then(|| quote!(+ #size * (order + 1)))
     }
 
-    /// The part of the workspace for the factors of the sums.
+    /// Emits the part of the workspace for the factors of the sums.
     pub(super) fn rows(&self) -> TokenStream {
         if self.sums.is_empty() {
             return TokenStream::new();
@@ -162,7 +161,7 @@ impl<'e> Recurrences<'e> {
         }
     }
 
-    /// A sine or cosine of an angle of the tree: known like the angle.
+    /// Returns true for a sine or cosine of an angle of the tree, which is known like the angle.
     fn is_given(&self, op: &Op) -> bool {
         match *op {
             Op::Input(..) => true,
@@ -183,7 +182,7 @@ impl<'e> Recurrences<'e> {
         }
     }
 
-    /// Values whose order 0 is read again in order k of a value.
+    /// Returns the values whose order 0 is used again in order k of a value.
     fn read_again(&self, id: ValueId) -> Vec<ValueId> {
         let op = self.emission.op(id);
         if !self.nonlinear(op) {
@@ -198,7 +197,7 @@ impl<'e> Recurrences<'e> {
         }
     }
 
-    /// Names what is written in place in order 0 and is read again in order k.
+    /// Names the values that have no name in order 0 and are used again in order k.
     fn name_factors(&mut self) {
         for id in self.needed.clone() {
             for value in self.read_again(id) {
@@ -257,13 +256,13 @@ impl<'e> Recurrences<'e> {
         }
     }
 
-    /// The value of an operation, if it is needed.
+    /// Returns the value of an operation, if it is needed.
     fn find(&self, op: &Op) -> Option<ValueId> {
         let mut needed = self.needed.iter().copied();
         needed.find(|id| self.emission.op(*id) == op)
     }
 
-    /// The coefficient of order k where it is used.
+    /// Returns the expression by which the coefficient of order k of a value is used.
     pub(super) fn bound(&self, id: ValueId, place: Binding) -> TokenStream {
         if let Some(name) = self.names.get(&id) {
             return quote!(#name);
@@ -276,7 +275,7 @@ impl<'e> Recurrences<'e> {
         }
     }
 
-    /// The coefficient of order 0 where it is used.
+    /// Returns the expression by which the coefficient of order 0 of a value is used.
     pub(super) fn zeroth(&self, id: ValueId, place: Binding) -> TokenStream {
         self.emission.bound(id, &self.locals, place)
     }
@@ -289,8 +288,8 @@ impl<'e> Recurrences<'e> {
     }
 }
 
-/// Values that the bias needs. Sines and cosines of the time come in pairs, as
-/// their recurrences need both.
+/// Returns the values that the bias needs. If it needs a sine or cosine of the time, both are
+/// included, because their recurrences need each other.
 fn with_partners(emission: &Emission<'_>, bias: &[ValueId]) -> Vec<ValueId> {
     let mut outputs = bias.to_vec();
     for id in emission.program.needed(bias) {

@@ -1,5 +1,5 @@
-//! Quotients of constants, cancelled: M of a rod with a bob is 1 / 30 + m / 4, though its centre
-//! of mass is a quotient.
+//! Cancelling of quotients of constants. For example the diagonal entry M of the mass matrix of a
+//! rod with a bob is 1 / 30 + m / 4, although its centre of mass is a quotient.
 
 use super::work::{BYTES, spend_on};
 use super::{Formula, integer};
@@ -7,13 +7,14 @@ use crate::exact::Rational;
 use crate::mechanics::expression::{Expr, Symbols};
 use symbolica::atom::{Atom, AtomCore, AtomView};
 
-/// Most terms of a numerator, times those of its denominator, that are looked at for common
-/// factors: what takes longer stays as it was written.
+/// Largest number of terms of a numerator, times those of its denominator, for which common factors
+/// are cancelled. Longer formulas stay as they were written.
 const MOST_TERMS: u64 = 2_000;
 
 impl Formula {
-    /// The formula as plain data, in canonical order: multiplied out where no divisor is left
-    /// in lowest terms, else the shorter of a sum of quotients and of one quotient.
+    /// Returns the formula as plain data, in canonical order. If no divisor remains after
+    /// cancelling common factors, the formula is multiplied out; otherwise the shorter of a sum of
+    /// quotients and a single quotient is chosen.
     pub fn cancelled(&self, symbols: &Symbols) -> Expr {
         let expanded = self.expand();
         let quotient = Quotient::of(expanded.0.as_view());
@@ -26,8 +27,8 @@ impl Formula {
         let Some((above, below)) = lowest.parts() else {
             return lowest.expand().to_expr(symbols);
         };
-        // Together the algebra writes whole numbers: the divisor's last term is one symbol, or a
-        // product of some, without a number again.
+        // `together` returns whole numbers. Divide by the number in the divisor's last term, so
+        // that this term is a symbol, or a product of symbols, without a number.
         let unit = last_number(&below.expand().to_expr(symbols));
         let scaled = |part: &Self| (part / &Self::number(&unit)).expand();
         let one = &scaled(&above) / &scaled(&below);
@@ -38,7 +39,7 @@ impl Formula {
         }
     }
 
-    /// Numerator and denominator; `None` of a formula that divides by no sum or symbol.
+    /// Returns numerator and denominator; `None` if the formula has no divisor.
     fn parts(&self) -> Option<(Self, Self)> {
         let factors = match self.0.as_view() {
             AtomView::Mul(product) => product.iter().collect(),
@@ -61,7 +62,7 @@ impl Formula {
     }
 }
 
-/// The number before the last term.
+/// Returns the numeric factor of the last term.
 fn last_number(expr: &Expr) -> Rational {
     let number = expr.terms().last().and_then(|term| match term.factors() {
         [Expr::Number(number), ..] => Some(number.clone()),
@@ -70,7 +71,7 @@ fn last_number(expr: &Expr) -> Rational {
     number.unwrap_or_else(Rational::one)
 }
 
-/// Numbers and symbols of an expression.
+/// Counts the numbers and symbols of an expression.
 fn size(expr: &Expr) -> usize {
     match expr {
         Expr::Number(_) | Expr::Symbol(_) => 1,
@@ -79,11 +80,11 @@ fn size(expr: &Expr) -> usize {
     }
 }
 
-/// Size of a formula over one common denominator, before anything is cancelled.
+/// Size of a formula over one common denominator, before cancelling.
 struct Quotient {
-    /// Terms of the numerator.
+    /// Number of terms of the numerator.
     above: u64,
-    /// What it is divided by, how often, and the terms of that.
+    /// Divisors: each with its power and its number of terms.
     below: Vec<(Atom, u32, u64)>,
 }
 
@@ -116,7 +117,7 @@ impl Quotient {
                         .map(|(base, power, terms)| (base, power.saturating_mul(size), terms))
                         .collect();
                 } else {
-                    // Divisors of a divisor multiply.
+                    // A divisor's own divisors move to the numerator.
                     let inner = Self { above: 1, below };
                     whole.above = inner.divisor_terms().saturating_pow(size);
                     whole.divide(base.to_owned(), size, above);
@@ -140,13 +141,13 @@ impl Quotient {
         whole
     }
 
-    /// How often it is divided by that.
+    /// Returns the power of the divisor `base`; 0 if it is not a divisor.
     fn power(&self, base: &Atom) -> u32 {
         let found = self.below.iter().find(|(own, ..)| own == base);
         found.map_or(0, |(_, power, _)| *power)
     }
 
-    /// Divides at least so often.
+    /// Raises the power of the divisor `base` to at least `power`.
     fn divide(&mut self, base: Atom, power: u32, terms: u64) {
         match self.below.iter_mut().find(|(own, ..)| *own == base) {
             Some((_, known, _)) => *known = power.max(*known),
@@ -154,7 +155,7 @@ impl Quotient {
         }
     }
 
-    /// Terms of the denominator.
+    /// Returns the number of terms of the denominator.
     fn divisor_terms(&self) -> u64 {
         let divisors = self.below.iter();
         divisors.fold(1, |product, (_, power, terms)| {

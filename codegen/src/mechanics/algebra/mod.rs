@@ -1,10 +1,8 @@
-//! The one door to Symbolica.
+//! The only module that uses Symbolica.
 //!
-//! Symbolica's free mode allows one thread per user and aborts the process
-//! that starts a second one. [`run`] therefore takes a lock that all processes
-//! of this crate share, does the whole derivation on a fresh thread, joins it
-//! and unlocks. Nothing else in the workspace names Symbolica; what crosses
-//! the door outwards is our own [`Expr`].
+//! Symbolica's free mode allows one thread per user and aborts a second process. Therefore [`run`]
+//! takes a lock that all processes of this crate share, runs the whole derivation on a new thread,
+//! joins it and releases the lock. Results leave this module as our own [`Expr`].
 
 mod cancel;
 mod read;
@@ -20,26 +18,27 @@ use crate::scene::RationalExpression;
 use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::fmt;
+use std::path::Path;
 use symbolica::atom::{Atom, AtomCore, AtomView, Symbol as AlgebraSymbol};
 use symbolica::id::Replacement;
 use symbolica::symbol;
 
-/// Reason for which a derivation could not be run.
+/// Reason why a derivation could not be run.
 #[derive(Debug)]
 pub enum AlgebraError {
-    /// It could not be kept apart from other derivations of the same user.
+    /// The lock that allows only one derivation per user at a time could not be taken.
     Lock(LockError),
-    /// An observable divides by a constant of the model that is zero in this
-    /// scene, which only the derivation knows.
+    /// An observable divides by a constant of the model that is zero in this scene. This is known
+    /// only after the derivation.
     DivisionByZero {
-        /// The observable's name.
+        /// Name of the observable.
         observable: String,
     },
     /// A formula has more than [`MOST_TERMS`] terms.
     TooManyTerms,
-    /// The derivation panicked: a broken invariant of ours.
+    /// The derivation panicked: an invariant of this crate is broken.
     Broken {
-        /// The panic's message.
+        /// Message of the panic.
         message: String,
     },
 }
@@ -52,10 +51,10 @@ impl fmt::Display for AlgebraError {
                 f,
                 "the observable `{observable}` divides by a constant that is zero in this scene"
             ),
-            Self::TooManyTerms => write!(f, "more than {MOST_TERMS} terms of formulas"),
+            Self::TooManyTerms => write!(f, "the formulas have more than {MOST_TERMS} terms"),
             Self::Broken { message } => write!(
                 f,
-                "a derivation broke one of its own invariants (a bug of this crate): {message}"
+                "the derivation violated an internal invariant (a bug of this crate): {message}"
             ),
         }
     }
@@ -63,22 +62,25 @@ impl fmt::Display for AlgebraError {
 
 impl std::error::Error for AlgebraError {}
 
-/// Runs `work` where it may use the algebra: alone among all processes of
-/// this user, on a thread of its own.
+/// Runs `work`, which may use the algebra, on a new thread and while no other process of this user
+/// derives.
 ///
-/// Waits while others derive, up to two minutes for one of them, and says for whom
-/// after two seconds. Formulas cannot leave `work` other than as [`Expr`].
+/// Waits while other processes derive, up to two minutes for each of them; after two seconds it
+/// prints which process it waits for. Formulas can leave `work` only as [`Expr`].
 ///
 /// # Errors
-/// [`AlgebraError::Lock`] if the lock cannot be had, [`AlgebraError::Broken`] if
+/// [`AlgebraError::Lock`] if the lock cannot be taken, [`AlgebraError::Broken`] if
 /// `work` panics.
 pub fn run<R: Send>(work: impl FnOnce() -> R + Send) -> Result<R, AlgebraError> {
     let lock = DerivationLock::acquire().map_err(AlgebraError::Lock)?;
     hide_banner();
+    if let Some(folder) = &lock.cache {
+        use_cache(folder);
+    }
     let outcome = std::thread::scope(|scope| {
         std::thread::Builder::new()
             .name("derivation".into())
-            // Symbolica recurses over expressions in unoptimised builds too.
+            // Symbolica's recursion over expressions needs this much stack in unoptimised builds.
             .stack_size(64 << 20)
             .spawn_scoped(scope, work)
             .map(|handle| handle.join())
@@ -100,8 +102,8 @@ pub fn run<R: Send>(work: impl FnOnce() -> R + Send) -> Result<R, AlgebraError> 
     }
 }
 
-/// The banner would go to the compiler's standard output, which cargo parses;
-/// docs/licences.md carries the notice instead.
+/// Suppresses Symbolica's banner. It would go to the compiler's standard output, which Cargo
+/// parses; docs/licences.md contains the notice instead.
 #[allow(unsafe_code)]
 fn hide_banner() {
     const VARIABLE: &str = "SYMBOLICA_HIDE_BANNER";
@@ -113,7 +115,19 @@ fn hide_banner() {
     }
 }
 
-/// A formula inside the algebra. Lives only inside [`run`].
+/// Makes Symbolica, and later derivations of this process, use `folder` for their files. In the
+/// user's home folder Symbolica would create missing folders.
+#[allow(unsafe_code)]
+fn use_cache(folder: &Path) {
+    const VARIABLE: &str = match cfg!(target_os = "macos") {
+        true => "HOME",
+        false => "XDG_CACHE_HOME",
+    };
+    // SAFETY: as for the banner.
+    unsafe { std::env::set_var(VARIABLE, folder) };
+}
+
+/// A formula of the algebra. It exists only inside [`run`].
 #[derive(Clone, PartialEq, Eq)]
 pub struct Formula(Atom);
 
@@ -124,8 +138,8 @@ impl fmt::Debug for Formula {
 }
 
 thread_local! {
-    /// Symbols of the derivation on this thread, by number: to find one by its name
-    /// takes as long as a product.
+    /// Symbols of the algebra, by number, for the derivation on this thread. Finding a symbol by
+    /// its name would take as long as a multiplication.
     static SYMBOLS: RefCell<BTreeMap<SymbolId, AlgebraSymbol>> =
         const { RefCell::new(BTreeMap::new()) };
 }
@@ -136,27 +150,27 @@ fn algebra_symbol(id: SymbolId) -> AlgebraSymbol {
 }
 
 impl Formula {
-    /// The number zero.
+    /// Returns the number zero.
     pub fn zero() -> Self {
         Self(Atom::new())
     }
 
-    /// An integer.
+    /// Returns an integer as a formula.
     pub fn integer(value: i64) -> Self {
         Self(Atom::num(value))
     }
 
-    /// An exact number.
+    /// Returns an exact number as a formula.
     pub fn number(value: &Rational) -> Self {
         Self(Atom::num(value.as_inner().clone()))
     }
 
-    /// A symbol.
+    /// Returns a symbol as a formula.
     pub fn symbol(id: SymbolId) -> Self {
         Self(Atom::var(algebra_symbol(id)))
     }
 
-    /// The formula that `expr` spells out.
+    /// Converts an expression to a formula.
     pub fn from_expr(expr: &Expr) -> Self {
         match expr {
             Expr::Number(number) => Self::number(number),
@@ -170,8 +184,8 @@ impl Formula {
         }
     }
 
-    /// The formula of an expression, given those of its atoms. `divisor` checks what is
-    /// divided by.
+    /// Converts an expression to a formula; `atom` converts its operands, and `divisor` checks
+    /// every divisor.
     pub(super) fn of<A, E>(
         expression: &RationalExpression<A>,
         atom: &mut impl FnMut(&A) -> Result<Self, E>,
@@ -198,34 +212,34 @@ impl Formula {
         })
     }
 
-    /// An integer power.
+    /// Returns an integer power of the formula.
     pub fn pow(&self, exponent: i32) -> Self {
         Self(self.0.pow(Atom::num(i64::from(exponent))))
     }
 
-    /// Returns true if the formula is literally zero; expand first.
+    /// Returns true if the formula is the number zero. The caller must expand it first.
     pub fn is_zero(&self) -> bool {
         self.0.is_zero()
     }
 
-    /// Returns true if the formula is no sum.
+    /// Returns true if the formula is not a sum.
     pub fn is_term(&self) -> bool {
         !matches!(self.0.as_view(), AtomView::Add(_))
     }
 
-    /// Products multiplied out.
+    /// Multiplies out all products.
     pub fn expand(&self) -> Self {
         spend_on(Expansion::of(self.0.as_view()).work(), self, TERM_READ);
         Self(self.0.expand())
     }
 
-    /// Over one common denominator, numerator and denominator coprime.
+    /// Combines the formula over one common denominator, with coprime numerator and denominator.
     pub fn together(&self) -> Self {
         spend_on(Expansion::of(self.0.as_view()).work(), self, TERM_READ);
         Self(self.0.together())
     }
 
-    /// The terms whose sum it is: itself, where it is no sum.
+    /// Returns the terms of a sum; for any other formula, the formula itself.
     pub fn terms(&self) -> Vec<Self> {
         match self.0.as_view() {
             AtomView::Add(sum) => sum.iter().map(|term| Self(term.to_owned())).collect(),
@@ -233,16 +247,16 @@ impl Formula {
         }
     }
 
-    /// Partial derivative with respect to the symbol itself (no chain rule).
+    /// Returns the partial derivative with respect to the symbol itself, without the chain rule.
     pub fn derivative(&self, id: SymbolId) -> Self {
         spend_on(CALL, self, BYTES);
         Self(self.0.derivative(algebra_symbol(id)))
     }
 
-    /// All symbols replaced at once.
+    /// Replaces all given symbols at once.
     pub fn substitute(&self, replacements: &[(SymbolId, Formula)]) -> Self {
         spend_on(CALL, self, BYTES);
-        // A pattern takes as long as its formula is long: none for what does not occur.
+        // Each pattern costs a pass over the formula: skip symbols that do not occur.
         let present = self.symbols();
         let replacements: Vec<Replacement> = replacements
             .iter()
@@ -261,8 +275,8 @@ impl Formula {
         Self(self.0.replace_multiple(replacements.iter()))
     }
 
-    /// Coefficients of the expanded formula in the given symbols: from
-    /// exponents (one for each symbol, in order) to coefficient.
+    /// Returns the coefficients of the expanded formula in the given symbols: a map from exponents
+    /// (one per symbol, in order) to the coefficient.
     pub fn coefficients(&self, ids: &[SymbolId]) -> BTreeMap<Vec<u32>, Formula> {
         let atoms: Vec<Atom> = ids
             .iter()
@@ -270,7 +284,7 @@ impl Formula {
             .collect();
         let Self(expanded) = self.expand();
         let mut terms: BTreeMap<Vec<u32>, Vec<Atom>> = BTreeMap::new();
-        // Term by term: the algebra's own list of coefficients takes far longer.
+        // Term by term, because the algebra's own list of coefficients takes far longer.
         let mut note = |term: AtomView<'_>| {
             let (exponents, rest) = split_term(term, &atoms);
             terms.entry(exponents).or_default().push(rest);
@@ -284,7 +298,7 @@ impl Formula {
         sums.filter(|(_, sum)| !sum.is_zero()).collect()
     }
 
-    /// The symbols that occur.
+    /// Returns the symbols that occur in the formula.
     pub fn symbols(&self) -> Vec<SymbolId> {
         let mut ids: Vec<SymbolId> = self
             .0
@@ -296,13 +310,13 @@ impl Formula {
         ids
     }
 
-    /// The formula as plain data, in canonical order.
+    /// Returns the formula as plain data, in canonical order.
     pub fn to_expr(&self, symbols: &Symbols) -> Expr {
         expression(self.0.as_view()).canonical(symbols)
     }
 }
 
-/// Powers of the atoms among the factors of a term, and the product of its other factors.
+/// Splits a term into the powers of the given atoms and the product of its other factors.
 fn split_term(term: AtomView<'_>, atoms: &[Atom]) -> (Vec<u32>, Atom) {
     let mut exponents = vec![0; atoms.len()];
     let factors = match term {
@@ -361,7 +375,7 @@ impl std::iter::Sum for Formula {
             formula.0
         };
         let terms: Vec<Atom> = iter.map(read).collect();
-        // Adding all at once keeps the cost linear in the number of terms.
+        // Adding all terms at once keeps the cost linear in their number.
         Formula(Atom::add_many(terms.iter()))
     }
 }

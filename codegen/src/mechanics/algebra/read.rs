@@ -1,4 +1,4 @@
-//! The algebra's formulas, read as our own data.
+//! Conversion of formulas of the algebra to plain data.
 
 use crate::exact::Rational;
 use crate::mechanics::expression::{Expr, SymbolId};

@@ -1,32 +1,34 @@
-//! Work of operations on formulas, counted before it is done.
+//! Amount of work of operations on formulas, counted before it is done, in units of the time for
+//! one term.
 
 use super::super::work_limit::spend;
 use super::{Formula, integer};
 use symbolica::atom::AtomView;
 
-/// Work of one operation, and bytes of a formula that take as much as one term: found by
-/// measuring, so that the limit is one of time on any formula.
+/// Work of one operation, and number of bytes of a formula whose processing takes as long as one
+/// term. All these factors are measured, so that the limit of work is a limit of time for any
+/// formula.
 pub(super) const CALL: u64 = 3;
 pub(super) const BYTES: u64 = 16;
-/// Bytes of a formula that is multiplied out.
+/// Number of bytes per term of a formula that is multiplied out.
 pub(super) const TERM_READ: u64 = 1;
-/// Terms that stand there already and take as long as one that is formed as a product.
+/// Work of a term that is computed as a product, compared with an existing term.
 const FORMED: u64 = 8;
-/// Terms that take as long as the square of the machine words of one number.
+/// Work of a term per square of the machine words of its number.
 const LONG_NUMBER: u64 = 2;
 
-/// Counts an operation on a formula.
+/// Counts an operation on a formula: `terms`, and one unit per `bytes` of the formula.
 pub(super) fn spend_on(terms: u64, formula: &Formula, bytes: u64) {
     let size = formula.0.as_view().get_byte_size() as u64;
     spend(terms.saturating_add(size / bytes));
 }
 
-/// Size of a formula multiplied out, before like terms are collected.
+/// Size of a formula after multiplying out, before like terms are collected.
 pub(super) struct Expansion {
     terms: u64,
-    /// Terms that are formed as products of others.
+    /// Number of terms that result from multiplying other terms.
     formed: u64,
-    /// Most machine words of the number in a term.
+    /// Largest number of machine words of the numeric factor of a term.
     words: u64,
 }
 
@@ -68,7 +70,7 @@ impl Expansion {
                 let (base, exponent) = (Self::of(power.get_base()), integer(power.get_exp()));
                 let positive = u64::from(exponent.max(0).unsigned_abs());
                 let power = Self {
-                    // A multinomial coefficient; negative powers stay as they are.
+                    // A multinomial coefficient; negative powers are not multiplied out.
                     terms: (0..positive).fold(1, |count: u64, chosen| {
                         count.saturating_mul(base.terms.saturating_add(chosen)) / (chosen + 1)
                     }),
@@ -80,7 +82,7 @@ impl Expansion {
         }
     }
 
-    /// Counts the terms of a product or a power as formed, if there is more than one.
+    /// Counts the terms of a product or a power as results of multiplication, if there are several.
     fn multiplied_out(self) -> Self {
         let formed = if self.terms > 1 { self.terms } else { 0 };
         Self {
@@ -89,8 +91,8 @@ impl Expansion {
         }
     }
 
-    /// Work in terms: products and common divisors of long numbers take the square of
-    /// their length.
+    /// Returns the work in units of one term. Products and common divisors of long numbers take a
+    /// time proportional to the square of their length.
     pub(super) fn work(&self) -> u64 {
         let squared = self.words.saturating_mul(self.words);
         let long = self

@@ -1,4 +1,4 @@
-//! Builds a program value by value; [`RULES`] say what becomes of an operation.
+//! Builder of programs, value by value; [`RULES`] simplify each operation.
 
 mod rules;
 
@@ -12,20 +12,20 @@ use crate::scene::Scene;
 use rules::RULES;
 use rules::sharing::KnownOperations;
 
-/// A program in the making.
+/// A program under construction.
 #[derive(Clone, Default)]
 pub(super) struct Builder {
     pub(super) definitions: Vec<Definition>,
     known: KnownOperations,
     pub(super) setup: Setup,
-    /// The pass that is left out, for comparison.
+    /// Pass that is left out, for comparison.
     pub(super) off: Option<Pass>,
-    /// Value that stands for all others once there are too many.
+    /// Value that replaces all further values once there are too many.
     stand_in: Option<ValueId>,
 }
 
 impl Builder {
-    /// A program without values yet, with the constants of another one.
+    /// Creates a program without values, with the constants of another one.
     pub(super) fn on_constants_of(program: &Program) -> Self {
         Self {
             setup: program.setup.clone(),
@@ -34,13 +34,13 @@ impl Builder {
         }
     }
 
-    /// Returns true if there would be more than [`MOST_VALUES`]. What is formed from there
-    /// on is nothing but cheap.
+    /// Returns true if there would be more than [`MOST_VALUES`]. Further operations then cost next
+    /// to nothing.
     pub(super) fn is_exceeded(&self) -> bool {
         self.stand_in.is_some()
     }
 
-    /// The program.
+    /// Returns the finished program.
     ///
     /// # Errors
     /// [`TooManyValues`] if there would be more than [`MOST_VALUES`].
@@ -66,12 +66,12 @@ impl Builder {
         &self.definitions[id.0 as usize].op
     }
 
-    /// The values that `outputs` depend on, themselves included, in order.
+    /// Returns the values that `outputs` depend on, including these, in the order of the program.
     pub(super) fn needed(&self, outputs: &[ValueId]) -> Vec<ValueId> {
         crate::program::dead::needed(&self.definitions, outputs)
     }
 
-    /// A value by this operation: what the rules make of it, or the operation.
+    /// Returns the value of an operation: simplified by the rules, or recorded as it is.
     fn form(&mut self, op: Op) -> ValueId {
         if let Some(stand_in) = self.stand_in {
             return stand_in;
@@ -86,7 +86,7 @@ impl Builder {
         self.record(op)
     }
 
-    /// A value by exactly this operation, formed before or now.
+    /// Returns the value of exactly this operation, and adds it if it is new.
     pub(super) fn record(&mut self, op: Op) -> ValueId {
         if let Some(stand_in) = self.stand_in {
             return stand_in;
@@ -99,8 +99,8 @@ impl Builder {
             return id;
         }
         let id = ValueId(self.definitions.len() as u32);
-        // No constant, so that nothing folds or vanishes, and callers find values where
-        // they expect some.
+        // An input rather than a constant, so that nothing is folded or removed, and callers find a
+        // value where they expect one.
         let op = match self.definitions.len() >= MOST_VALUES {
             true => {
                 self.stand_in = Some(id);
@@ -117,8 +117,9 @@ impl Builder {
         id
     }
 
-    /// Gives a value a name, unless it has one or is a leaf; of a constant it is a hint. A
-    /// change of sign costs nothing where the value is used, so what it changes is named.
+    /// Names a value, unless it has a name or is an input or a constant; for a constant the name is
+    /// a hint. A change of sign costs nothing in the operation that uses it, so its operand is
+    /// named instead.
     pub(super) fn name(&mut self, id: ValueId, name: &str) -> ValueId {
         if let Op::Constant(constant) = *self.op(id) {
             self.setup.hint(constant, name);
@@ -135,8 +136,8 @@ impl Builder {
         id
     }
 
-    /// Gives a value a name without a line of its own: code that needs a name
-    /// for it takes this one. The first hint stays.
+    /// Suggests a name for a value without giving it a separate line: the name is used if code
+    /// needs one. The first hint is kept.
     pub(super) fn hint(&mut self, id: ValueId, name: &str) {
         if let Op::Constant(constant) = *self.op(id) {
             return self.setup.hint(constant, name);
@@ -180,8 +181,8 @@ impl Builder {
         self.record(Op::Cos(angle))
     }
 
-    /// The cosine that belongs to a sine, or the sine that belongs to a cosine,
-    /// named after it; none for other values.
+    /// Returns the cosine that has the same argument as a sine, or the sine that has the same
+    /// argument as a cosine, with a corresponding name; `None` for other values.
     pub(super) fn partner(&mut self, id: ValueId) -> Option<ValueId> {
         let (partner, from, to) = match *self.op(id) {
             Op::Sin(angle) => (self.cos(angle), "sin_", "cos_"),
@@ -207,7 +208,7 @@ impl Builder {
         matches!(self.op(id), Op::Constant(_) | Op::Number(_))
     }
 
-    /// The value as a constant of the setup, if no input is involved.
+    /// Returns the value as a constant of the setup, or `None` if it depends on an input.
     pub(super) fn as_constant(&mut self, id: ValueId) -> Option<ConstantId> {
         match self.op(id).clone() {
             Op::Constant(constant) => Some(constant),
@@ -241,10 +242,9 @@ fn is_leaf(op: &Op) -> bool {
     matches!(op, Op::Input(..) | Op::Constant(_) | Op::Number(_))
 }
 
-/// Constants of the setup as values.
+/// Methods that create constants of the model, as values of the program.
 impl Builder {
-    /// A constant under a name of its own, unless it is a whole number that
-    /// operations drop or fold.
+    /// Creates a named constant, unless it is a whole number, which operations drop or fold.
     pub(super) fn called(&mut self, value: ValueId, name: &str) -> ValueId {
         if [-1, 0, 1].iter().any(|&number| self.is(value, number)) {
             return value;
@@ -258,7 +258,7 @@ impl Builder {
         }
     }
 
-    /// Exact value of a constant, where no parameter is involved.
+    /// Returns the exact value of a constant, or `None` if it depends on a parameter.
     pub(super) fn exact(&self, value: ValueId) -> Option<Rational> {
         match self.op(value) {
             Op::Number(number) => Some(number.clone()),
@@ -267,8 +267,7 @@ impl Builder {
         }
     }
 
-    /// Returns true if a constant can be divided by, whatever the parameters of
-    /// the scene.
+    /// Returns true if a constant is nonzero for all parameters that the scene accepts.
     pub(super) fn is_never_zero(&self, value: ValueId, scene: &Scene) -> bool {
         match self.op(value) {
             Op::Number(number) => !number.is_zero(),
@@ -283,7 +282,7 @@ impl Builder {
 
 #[cfg(test)]
 impl Builder {
-    /// A program with one entry point, for tests of passes.
+    /// Creates a program with one entry point, for tests of passes.
     pub(super) fn program(
         self,
         purpose: crate::functions::Purpose,

@@ -1,17 +1,16 @@
-//! The factor that is taken out of a sum of products, and the terms that stand
-//! then.
+//! Extraction of common factors from a sum of products.
 
 use crate::program::builder::Builder;
 use crate::program::{ConstantId, Op, ValueId};
 use std::cmp::Reverse;
 use std::collections::BTreeMap;
 
-/// A product with its sign, in values of the program in the making.
+/// A product with its sign, in values of the program under construction.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Term {
     pub(super) negative: bool,
     pub(super) factors: Vec<ValueId>,
-    /// The value that it has already, if nothing is taken out of it.
+    /// Existing value of the product, if no factor has been extracted from it.
     pub(super) value: Option<ValueId>,
 }
 
@@ -22,7 +21,8 @@ impl Term {
     }
 }
 
-/// Takes factors out, greatest saving first; says what is saved.
+/// Extracts factors, the one with the greatest saving first; returns the number of saved
+/// operations.
 pub(super) fn extract(builder: &mut Builder, terms: &mut Vec<Term>, fused: bool) -> usize {
     let mut saved = 0;
     while let Some((factor, gain)) = best(terms, fused) {
@@ -59,8 +59,8 @@ pub(super) fn extract(builder: &mut Builder, terms: &mut Vec<Term>, fused: bool)
     saved
 }
 
-/// 4 c x + 2 c y becomes 2 c (2 x + y), of as many operations: the model holds one constant less
-/// where that is all that 4 c is for.
+/// Rewrites 4 c x + 2 c y as 2 c (2 x + y), which has as many operations. The model then has one
+/// constant less, if 4 c is used nowhere else.
 fn share_constants(builder: &mut Builder, terms: &mut Vec<Term>) {
     let mut first = 0;
     while first < terms.len() {
@@ -77,7 +77,7 @@ fn share_constants(builder: &mut Builder, terms: &mut Vec<Term>) {
         let other = terms.remove(second);
         let mut both = [terms.remove(first), other];
         let mut constants = [0, 1].map(|index| both[index].factors.remove(places[index]));
-        // The smaller constant stays before the sum.
+        // The smaller constant becomes the factor of the sum.
         if exponent > 0 {
             constants.swap(0, 1);
         }
@@ -100,7 +100,7 @@ fn share_constants(builder: &mut Builder, terms: &mut Vec<Term>) {
     }
 }
 
-/// The place of the only constant of the model among the factors of a term, beside others.
+/// Returns the position of the only constant of the model in a term with several factors.
 fn constant_factor(builder: &Builder, term: &Term) -> Option<(usize, ConstantId)> {
     let constant = |&id: &ValueId| match builder.op(id) {
         Op::Constant(id) => Some(*id),
@@ -111,7 +111,7 @@ fn constant_factor(builder: &Builder, term: &Term) -> Option<(usize, ConstantId)
     (term.factors.len() > 1).then_some((place, own))
 }
 
-/// A sum's value; it starts with a positive term if it has one.
+/// Builds a sum; it starts with a positive term if it has one.
 pub(super) fn sum(builder: &mut Builder, terms: &[Term]) -> ValueId {
     let first = terms.iter().position(|term| !term.negative).unwrap_or(0);
     let negative = terms[first].negative;
@@ -128,7 +128,7 @@ pub(super) fn sum(builder: &mut Builder, terms: &[Term]) -> ValueId {
     if negative { builder.neg(sum) } else { sum }
 }
 
-/// A product's value: constants last, so that what they multiply is shared.
+/// Builds a product. Constants come last, so that the product of the other factors can be shared.
 pub(super) fn product(builder: &mut Builder, factors: &[ValueId]) -> ValueId {
     let (constants, values): (Vec<ValueId>, Vec<ValueId>) = factors
         .iter()
@@ -140,7 +140,7 @@ pub(super) fn product(builder: &mut Builder, factors: &[ValueId]) -> ValueId {
     factors.fold(first, |product, factor| builder.mul(product, factor))
 }
 
-/// The factor that saves most, and what it saves.
+/// Returns the factor whose extraction saves most operations, and the number of these.
 fn best(terms: &[Term], fused: bool) -> Option<(ValueId, usize)> {
     let mut gains: BTreeMap<ValueId, (isize, Reverse<usize>)> = BTreeMap::new();
     for term in terms.iter().filter(|term| term.factors.len() > 1) {
@@ -148,7 +148,7 @@ fn best(terms: &[Term], fused: bool) -> Option<(ValueId, usize)> {
         for &factor in &term.factors {
             if !seen.contains(&factor) {
                 seen.push(factor);
-                // Fused, a product of two costs nothing in its sum.
+                // With fusing, a product of two factors costs nothing within a sum.
                 let saving = isize::from(!fused || term.factors.len() > 2);
                 let place = Reverse(gains.len());
                 gains.entry(factor).or_insert((-1, place)).0 += saving;

@@ -1,36 +1,34 @@
-//! Common factors: a b + a c becomes a (b + c), wherever that saves operations.
+//! Common factors: a b + a c becomes a (b + c), if that saves operations.
 //!
 //! # Rule
-//! A sum is what additions and subtractions make of values that nothing else uses, down
-//! to the first value that is named, used elsewhere, or no sum. A term of it is a product
-//! as far as that goes by the same rule. The factor whose extraction saves
-//! most operations is taken out of the terms that have it, and so on with what
-//! stands in its place and with what is left, until nothing is saved. Among equals
-//! the one that comes first in the sum is taken. Cofactors are shared like all other
-//! values, so that b + c is formed once for two sums. Every entry point is looked at by
-//! itself, so that its code does not depend on which others there are, and keeps its
-//! sums unless it takes fewer operations in all.
+//! A sum consists of all additions and subtractions down to the first value that is named, used
+//! elsewhere, or not a sum. By the same criterion each of its terms is a product of factors. The
+//! factor whose extraction saves most operations is taken out of the terms that contain it. This
+//! repeats with the new sum of cofactors and with the remaining terms, until nothing is saved;
+//! among equal factors the first in the sum is taken. Cofactors are shared like all other values,
+//! so that b + c is computed once for two sums. Every entry point is treated separately, so that
+//! its code does not depend on the others. It keeps its original sums unless the new ones take
+//! fewer operations in total.
 //!
 //! # When it is valid
-//! Taken out, a factor multiplies each of its terms as before, only later: no term is
-//! rounded more often than it has factors, less one, and the sum has terms, less one. The
-//! bound of the error of a sum, that many roundings of the sum of the sizes of its
-//! terms, stays; where a factor is taken out of two terms that nearly cancel, a b − a c,
-//! one product is rounded instead of two. But other terms may be added to each other
-//! first. A difference of two products is therefore one term, and is opened only for a
-//! factor that both have: it is zero where they are equal factor by factor, before and
-//! after.
+//! An extracted factor multiplies each of its terms as before, only later: no term is rounded more
+//! often than its number of factors minus one, and the sum not more often than its number of terms
+//! minus one. The error bound of a sum (this many roundings, times the sum of the magnitudes of its
+//! terms) is therefore unchanged; if a factor is extracted from two terms that nearly cancel, a b −
+//! a c, one product is rounded instead of two. However, other terms may be added to each other
+//! first. A difference of two products is therefore treated as one term, and is opened only for a
+//! factor of both. It is zero if the products are equal factor by factor, before and after.
 //!
-//! Of constants that are powers of two of one another the smaller is taken out where nothing
-//! else can be, which takes as many operations and one constant less: 4 c x + 2 c y becomes
-//! 2 c (2 x + y).
+//! If one constant is a power of two times another, the smaller one is extracted if nothing else
+//! can be. This takes as many operations but one constant less: 4 c x + 2 c y becomes 2 c (2 x +
+//! y).
 //!
-//! Where products are fused with sums (accelerations), a product of two
-//! values costs nothing in a sum; the saving is counted accordingly.
+//! If products are fused with sums (accelerations), a product of two values costs nothing in a sum;
+//! the saving is counted accordingly.
 //!
 //! # Cost
-//! Each step counts the factors of a sum, F of K terms, so that a sum takes O(K F log F);
-//! the rest is a walk over every entry point, times a logarithm.
+//! Each step counts the factors of a sum. With F factors in K terms a sum takes O(K F log F); the
+//! rest is one pass over every entry point, times a logarithm.
 
 mod extract;
 #[cfg(test)]
@@ -42,8 +40,8 @@ use crate::functions::Purpose;
 use extract::{Term, extract, product, sum};
 use std::collections::{BTreeMap, HashMap};
 
-/// The program with common factors taken out of the entry points that take fewer
-/// operations then; the same program, to the number of each value, where none does.
+/// Extracts common factors in the entry points that take fewer operations afterwards. If there are
+/// none, the program is returned unchanged, including the indices of its values.
 pub(super) fn common_factors(program: Program) -> Program {
     let all = vec![true; program.entries.len()];
     let (factored, changed) = factored(&program, &all);
@@ -61,13 +59,13 @@ pub(super) fn common_factors(program: Program) -> Program {
     }
 }
 
-/// Operations of an entry point, where a product that is fused with a sum is none.
+/// Returns the number of operations of an entry point; a product that is fused with a sum does not
+/// count.
 fn cost(program: &Program, entry: &Entry) -> usize {
     program.operations(&entry.outputs).total() - program.fused(entry).len()
 }
 
-/// The program with common factors taken out of the chosen entry points, and whether these
-/// changed.
+/// Extracts common factors in the chosen entry points; also returns which of them changed.
 fn factored(program: &Program, chosen: &[bool]) -> (Program, Vec<bool>) {
     let mut pass = Factoring {
         program,
@@ -80,8 +78,8 @@ fn factored(program: &Program, chosen: &[bool]) -> (Program, Vec<bool>) {
         .zip(chosen)
         .map(|(entry, &chosen)| FactoredEntry::new(program, entry, chosen))
         .collect();
-    // In the order of the program, whichever entry points need a value: what is not
-    // changed keeps its place among the rest.
+    // In the order of the program, whichever entry points need a value, so that unchanged values
+    // keep their relative order.
     for index in 0..program.definitions.len() {
         pass.form(ValueId(index as u32), &mut functions);
     }
@@ -100,24 +98,24 @@ fn factored(program: &Program, chosen: &[bool]) -> (Program, Vec<bool>) {
             factored.strips.clone_from(&program.strips);
             (factored.without_dead_code(), changed.collect())
         }
-        // One of the factors would be a value too many.
+        // The extracted factors would exceed the number of values.
         Err(TooManyValues) => (program.clone(), vec![false; chosen.len()]),
     }
 }
 
-/// An entry point as the pass sees it.
+/// State of the pass for one entry point.
 struct FactoredEntry {
-    /// The values that it needs and that are still to come, last first.
+    /// Needed values that are still to be built, in reverse order.
     ahead: Vec<ValueId>,
-    /// The value that uses a value; none where several do, or one twice.
+    /// The only value that uses a value; `None` if several do, or one uses it twice.
     user: HashMap<ValueId, Option<ValueId>>,
-    /// True if factors are taken out where that saves anything.
+    /// True if factors are extracted where that saves operations.
     chosen: bool,
-    /// True if some were.
+    /// True if a factor has been extracted.
     changed: bool,
-    /// True if its products are fused with its sums.
+    /// True if products are fused with sums.
     fused: bool,
-    /// Values that are others here than in the entry points before it.
+    /// Replacements of values that differ from those in earlier entry points.
     own: BTreeMap<ValueId, ValueId>,
 }
 
@@ -151,13 +149,13 @@ impl FactoredEntry {
         }
     }
 
-    /// The value that uses a value, where there is one alone and that once.
+    /// Returns the value that uses a value, if it is the only one and uses it once.
     fn user(&self, id: ValueId) -> Option<ValueId> {
         self.user.get(&id).copied().flatten()
     }
 
-    /// The value that stands for an old one here; `values` holds those of the
-    /// other entry points.
+    /// Returns the replacement of an old value in this entry point; `values` holds the common
+    /// replacements.
     fn value(&self, id: ValueId, values: &[ValueId]) -> ValueId {
         let own = self.own.get(&id).copied();
         own.unwrap_or_else(|| values[id.0 as usize])
@@ -167,13 +165,12 @@ impl FactoredEntry {
 struct Factoring<'p> {
     program: &'p Program,
     builder: Builder,
-    /// The values that stand for those of the program, in the first entry point
-    /// that needs them.
+    /// Replacement of each value of the program, as built for the first entry point that needs it.
     values: Vec<ValueId>,
 }
 
 impl Factoring<'_> {
-    /// Forms a value for all entry points that need it.
+    /// Builds a value for all entry points that need it.
     fn form(&mut self, id: ValueId, functions: &mut [FactoredEntry]) {
         let mut common = None;
         for function in functions {
@@ -221,7 +218,7 @@ impl Factoring<'_> {
         value
     }
 
-    /// The value of a sum with factors taken out, if that saves anything.
+    /// Returns a sum with extracted factors, if that saves operations.
     fn factored(&mut self, id: ValueId, function: &FactoredEntry) -> Option<ValueId> {
         let inside = |user: ValueId| self.is_sum(user) && self.opens(id, user, function);
         if !function.chosen || !self.is_sum(id) || function.user(id).is_some_and(inside) {
@@ -240,12 +237,12 @@ impl Factoring<'_> {
         matches!(self.program.definition(id).op, Op::Add(..) | Op::Sub(..))
     }
 
-    /// Returns true if a value becomes a part of the one that uses it.
+    /// Returns true if a value becomes a part of the value that uses it.
     fn opens(&self, id: ValueId, user: ValueId, function: &FactoredEntry) -> bool {
         self.program.definition(id).name.is_none() && function.user(id) == Some(user)
     }
 
-    /// The operands of a sum, and whether the second is subtracted.
+    /// Returns the operands of a sum, and true if the second is subtracted.
     fn operands(&self, sum: ValueId) -> (ValueId, ValueId, bool) {
         match self.program.definition(sum).op {
             Op::Add(a, b) => (a, b, false),
@@ -254,7 +251,8 @@ impl Factoring<'_> {
         }
     }
 
-    /// The terms of a sum; says what is saved in the differences among them.
+    /// Appends the terms of a sum to `terms`. Returns the number of operations saved by common
+    /// factors in differences of products.
     fn terms(
         &mut self,
         sum: ValueId,
@@ -288,7 +286,7 @@ impl Factoring<'_> {
         matches!(self.program.definition(id).op, Op::Sub(a, b) if product(a) && product(b))
     }
 
-    /// A difference of products, with the factors that both have taken out.
+    /// Returns a difference of products with their common factors extracted.
     fn difference(
         &mut self,
         id: ValueId,
@@ -299,7 +297,7 @@ impl Factoring<'_> {
         let (mut first, mut second) =
             (self.factors(a, id, function), self.factors(b, id, function));
         let mut factors = Vec::new();
-        // Something of both products stays.
+        // At least one factor of each product remains.
         let mut place = 0;
         while place < first.len() && first.len() > 1 && second.len() > 1 {
             match second.iter().position(|&factor| factor == first[place]) {

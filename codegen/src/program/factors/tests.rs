@@ -1,4 +1,4 @@
-//! Small programs before and after.
+//! Small programs before and after the extraction of common factors.
 
 use super::common_factors;
 use crate::functions::{Argument, Purpose};
@@ -11,8 +11,8 @@ fn inputs<const N: usize>(builder: &mut Builder) -> [ValueId; N] {
     std::array::from_fn(|index| builder.input(Argument::Theta, index))
 }
 
-/// The program before and after the pass; both are sound and, on whole numbers, where
-/// nothing is rounded, have the same values.
+/// Runs the pass, and returns the program before and after it. Checks that both are valid and have
+/// equal values for whole numbers, which are not rounded.
 fn pass(builder: Builder, purpose: Purpose, outputs: Vec<ValueId>) -> [Program; 2] {
     let before = builder.program(purpose, outputs);
     let after = common_factors(before.clone());
@@ -31,7 +31,7 @@ fn total(program: &Program) -> usize {
     program.operations(&program.entries[0].outputs).total()
 }
 
-/// a b + a c + d b + d c = (a + d) (b + c).
+/// Checks that a b + a c + d b + d c becomes (a + d) (b + c).
 #[test]
 fn cofactors_are_factors_in_turn() {
     let mut builder = Builder::default();
@@ -44,7 +44,7 @@ fn cofactors_are_factors_in_turn() {
     assert_eq!((total(&before), total(&after)), (7, 3));
 }
 
-/// 3 a b c − 5 a d = a (3 b c − 5 d), signs and numbers in any place.
+/// Checks that 3 a b c − 5 a d becomes a (3 b c − 5 d), for all positions of signs and numbers.
 #[test]
 fn signs_and_numbers_stay_with_their_terms() {
     let mut builder = Builder::default();
@@ -60,7 +60,7 @@ fn signs_and_numbers_stay_with_their_terms() {
     assert_eq!((total(&before), total(&after)), (6, 5));
 }
 
-/// A product that is needed for itself is not formed again.
+/// Checks that a product which is also used elsewhere is not computed twice.
 #[test]
 fn products_with_other_uses_stay() {
     let mut builder = Builder::default();
@@ -82,7 +82,8 @@ fn named_values_stay() {
     assert_eq!(before, after);
 }
 
-/// sin a cos b − cos a sin b is zero for a = b, whatever else has a factor of it.
+/// Checks that sin a cos b − cos a sin b stays zero for a = b, even if other terms share a factor
+/// with it.
 #[test]
 fn differences_of_products_are_opened_for_their_own_factors_only() {
     let mut builder = Builder::default();
@@ -102,7 +103,7 @@ fn differences_of_products_are_opened_for_their_own_factors_only() {
     assert_eq!((total(&before), total(&after)), (5, 4));
 }
 
-/// x + a b + a c takes two operations, fused, and so does x + a (b + c).
+/// Checks that with fused operations x + a b + a c takes two operations, as does x + a (b + c).
 #[test]
 fn fused_products_cost_nothing_in_their_sums() {
     let sums = |[a, b, c, x]: [ValueId; 4], builder: &mut Builder| {
@@ -119,8 +120,8 @@ fn fused_products_cost_nothing_in_their_sums() {
     }
 }
 
-/// Sums of products of two to four of six inputs, of either sign: never more operations,
-/// and never off by more than the roundings that the bound grants to both programs.
+/// Checks sums of products of two to four of six inputs, with random signs: the pass never adds
+/// operations, and the values never differ by more than the error bounds of both programs.
 #[test]
 fn random_sums_keep_their_values_within_the_bound() {
     let mut random = SplitMix64::seed_from_u64(1);
@@ -169,7 +170,8 @@ fn random_sums_keep_their_values_within_the_bound() {
     assert!(smaller > 100, "{smaller}");
 }
 
-/// a (4 c b + 2 c d) = a (2 c (2 b + d)), and 4 c is no constant of the model any more.
+/// Checks that a (4 c b + 2 c d) becomes a (2 c (2 b + d)); 4 c is then no longer a constant of the
+/// model.
 #[test]
 fn constants_that_are_powers_of_two_of_others_go() {
     let mut builder = Builder::default();
@@ -185,7 +187,7 @@ fn constants_that_are_powers_of_two_of_others_go() {
     });
     let sum = builder.add(terms[0], terms[1]);
     let [before, after] = pass(builder, Purpose::KineticEnergy, vec![sum]);
-    // Without the second rule it would be four as well, of two constants.
+    // Without the second rule there would be four operations too, but two constants.
     assert_eq!((total(&before), total(&after)), (5, 4));
     let read = |program: &Program| {
         let definitions = program.definitions.iter();

@@ -1,4 +1,4 @@
-//! Energies, powers and positions in a tree in loops: the functions of one link, and their
+//! Energies, powers and positions of a tree in loops: the functions of one link, and their
 //! constants.
 
 use super::columns::Column;
@@ -10,10 +10,10 @@ use crate::mechanics::{BodySymbols, LinkBalance, LinkBody};
 use crate::program::ValueId;
 use crate::program::entry_list::EntryList;
 use crate::program::lower::Lowering;
-use crate::scene::{FrictionPlace, Scene};
+use crate::scene::{FrictionContact, Scene};
 
 impl EntryList<'_, '_> {
-    /// The entry points of energies, powers and positions.
+    /// Adds the entry points of energies, powers and positions.
     pub(super) fn body_functions(&mut self, functions: &Functions<'_>, body: &LinkBody) {
         for &function in &body.functions {
             let known = functions.known_of(self, &body.symbols, function);
@@ -34,10 +34,17 @@ impl Functions<'_> {
         symbols: &BodySymbols,
         function: BodyFunction,
     ) -> Vec<(SymbolId, ValueId)> {
-        // Where a pivot is on its parent stands in the row of the child.
+        // The position of a pivot on its parent is in the child's row of constants.
         let kind = match function {
             BodyFunction::PivotVelocity => Kind::Child,
-            _ => Kind::Any,
+            BodyFunction::KineticEnergy
+            | BodyFunction::PotentialEnergy
+            | BodyFunction::FrictionLoss
+            | BodyFunction::DrivePower
+            | BodyFunction::OutsidePower
+            | BodyFunction::Point
+            | BodyFunction::PointVelocity
+            | BodyFunction::PointTorque => Kind::Any,
         };
         let place = [Column::PivotAlong, Column::PivotAcross];
         let mut known = self.known_body(list, kind, symbols, place);
@@ -68,7 +75,7 @@ impl Functions<'_> {
 }
 
 impl Lowering<'_> {
-    /// Fills the columns that energies and powers read.
+    /// Fills the columns of constants that energies and powers read.
     pub(super) fn body_columns(
         &mut self,
         scene: &Scene,
@@ -82,7 +89,7 @@ impl Lowering<'_> {
         let zero = self.builder.integer(0);
         let gravity = self.value_of(&scene.gravity);
         let mut masses = vec![zero; scene.orbits.len()];
-        // From the leaves to the root: orbits stand as their first links do.
+        // From the leaves to the root: orbits are in the order of their first links.
         for (number, orbit) in scene.orbits.iter().enumerate().rev() {
             let index = orbit.links[0].0;
             let link = &scene.links[index];
@@ -100,35 +107,62 @@ impl Lowering<'_> {
             let pivot = self.values_of(&link.pivot);
             let weight = self.weight_moment(body, gravity, [carried[1], carried[2]]);
             let passive = &units.links[number].passive;
-            let [joint, ground] = FrictionPlace::ALL.map(|place| passive.law(place));
-            let values = [
-                (Column::BodyMass, self.value_of(&link.mass)),
-                (Column::BodyInertia, self.value_of(&link.inertia)),
-                (Column::ComAlong, com[0]),
-                (Column::ComAcross, com[1]),
-                (Column::PlaceAlong, place[0]),
-                (Column::PlaceAcross, place[1]),
-                (Column::PivotAlong, pivot[0]),
-                (Column::PivotAcross, pivot[1]),
-                (Column::CarriedMoment, carried[1]),
-                (Column::LateralCarriedMoment, carried[2]),
-                (Column::WeightMoment, weight[0]),
-                (Column::LateralWeightMoment, weight[1]),
-                (Column::Gravity, gravity),
-                (Column::Stiffness, passive.spring),
-                (Column::PivotFriction, passive.friction),
-                (Column::GroundDrag, passive.drag),
-                (Column::PivotCoulomb, joint.coulomb),
-                (Column::PivotQuadratic, joint.quadratic),
-                (Column::GroundQuadratic, ground.quadratic),
-            ];
-            for (column, value) in values {
-                rows[number][column as usize] = value;
+            let [joint, ground] = FrictionContact::ALL.map(|place| passive.law(place));
+            let [body_mass, body_inertia] =
+                [&link.mass, &link.inertia].map(|quantity| self.value_of(quantity));
+            for column in Column::ALL {
+                let value = &mut rows[number][column as usize];
+                *value = match column {
+                    Column::BodyMass => body_mass,
+                    Column::BodyInertia => body_inertia,
+                    Column::ComAlong => com[0],
+                    Column::ComAcross => com[1],
+                    Column::PlaceAlong => place[0],
+                    Column::PlaceAcross => place[1],
+                    Column::PivotAlong => pivot[0],
+                    Column::PivotAcross => pivot[1],
+                    Column::CarriedMoment => carried[1],
+                    Column::LateralCarriedMoment => carried[2],
+                    Column::WeightMoment => weight[0],
+                    Column::LateralWeightMoment => weight[1],
+                    Column::Gravity => gravity,
+                    Column::Stiffness => passive.spring,
+                    Column::PivotFriction => passive.friction,
+                    Column::GroundDrag => passive.drag,
+                    Column::PivotCoulomb => joint.coulomb,
+                    Column::PivotQuadratic => joint.quadratic,
+                    Column::GroundQuadratic => ground.quadratic,
+                    // These constants belong to the equations of motion only.
+                    Column::Inertia
+                    | Column::Moment
+                    | Column::LateralMoment
+                    | Column::Mass
+                    | Column::Length
+                    | Column::InverseLength
+                    | Column::GainAlong
+                    | Column::GainAcross
+                    | Column::InverseInertia
+                    | Column::Along
+                    | Column::Across
+                    | Column::Friction
+                    | Column::Drag
+                    | Column::Spring
+                    | Column::Rest
+                    | Column::Coulomb
+                    | Column::QuadraticFriction
+                    | Column::FrictionWidth
+                    | Column::QuadraticDrag
+                    | Column::DragWidth
+                    | Column::PerTorque
+                    | Column::TorqueUnit
+                    | Column::DriveTorque => *value,
+                };
             }
         }
     }
 
-    /// The moment of the weight of all that a link carries, along and across.
+    /// Computes the weight of everything that a link carries times its lever, along and across the
+    /// link.
     fn weight_moment(
         &mut self,
         body: &LinkBody,

@@ -1,10 +1,10 @@
-//! Columns of constants that the functions of a link read.
+//! Columns of constants that the functions of a link read; each link has a row.
 
 use crate::named_members::named_members;
 
 named_members! {
-    /// A constant in the equations of one link, in reduced units: m and l are those of the
-    /// commonest leaf for the whole tree, L is the link's own unit of length.
+    /// A constant in the equations of one link, in reduced units. m and l are the mass and length
+    /// of the commonest leaf, for the whole tree; L is the link's own unit of length.
     #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
     pub enum Column {
         Inertia = "inertia": "M/(L² m), moment of inertia about the pivot",
@@ -52,17 +52,17 @@ named_members! {
     }
 }
 
-/// A unit of torques.
+/// Unit of torques.
 #[derive(Clone, Copy)]
 pub(super) enum TorqueUnit {
-    /// m l² of the whole tree.
+    /// m l² of the whole tree (reduced units).
     Reduced,
-    /// N m.
+    /// Newton metre.
     NewtonMetre,
 }
 
 impl TorqueUnit {
-    /// Columns of the spring, viscous friction and drag.
+    /// Returns the columns of the spring, viscous friction and drag.
     pub(super) fn viscous(self) -> [Column; 3] {
         match self {
             Self::Reduced => [Column::Spring, Column::Friction, Column::Drag],
@@ -70,7 +70,7 @@ impl TorqueUnit {
         }
     }
 
-    /// Columns of Coulomb and quadratic friction and of quadratic drag.
+    /// Returns the columns of Coulomb friction, quadratic friction and quadratic drag.
     pub(super) fn laws(self) -> [Column; 3] {
         match self {
             Self::Reduced => [

@@ -1,6 +1,6 @@
-//! The deficit N of the articulated inertia of a subtree, or of several on one pivot:
-//! a symmetric matrix. With the mass S of the subtree, S 1 − N is the articulated
-//! inertia; N is what free joints take away from the mass.
+//! The deficit N of the articulated inertia of a subtree, or of several subtrees on one pivot: a
+//! symmetric matrix. With the mass S of the subtree, S 1 − N is its articulated inertia; N is the
+//! reduction caused by free joints.
 
 use crate::program::ValueId;
 use crate::program::builder::Builder;
@@ -13,12 +13,12 @@ pub(super) struct Deficit {
     pub(super) rest: Rest,
 }
 
-/// The part of N beside xx and xy, in the form in which it is known.
+/// The third number that determines N, in addition to xx and xy.
 #[derive(Clone, Copy)]
 pub(super) enum Rest {
-    /// The trace, a constant: a leaf's angle turns N and changes nothing else.
+    /// The trace, if it is constant: for a leaf, whose angle only rotates N.
     Trace(ValueId),
-    /// The third component.
+    /// The component yy.
     Yy(ValueId),
 }
 
@@ -32,7 +32,7 @@ impl Deficit {
         }
     }
 
-    /// b gᵀ, of two parallel vectors.
+    /// Computes b gᵀ for two parallel vectors.
     pub(super) fn product(builder: &mut Builder, b: Pair, g: Pair) -> Self {
         Self {
             xx: builder.mul(b[0], g[0]),
@@ -68,7 +68,7 @@ impl Deficit {
         }
     }
 
-    /// N − m 1.
+    /// Computes N − m 1.
     pub(super) fn less_mass(&self, builder: &mut Builder, mass: ValueId) -> Self {
         if builder.is(mass, 0) {
             return *self;
@@ -95,7 +95,7 @@ impl Deficit {
         }
     }
 
-    /// N y.
+    /// Computes N y.
     pub(super) fn times(&self, builder: &mut Builder, y: Pair) -> Pair {
         let yy = self.yy(builder);
         [
@@ -104,7 +104,7 @@ impl Deficit {
         ]
     }
 
-    /// (N − ½ tr N) y.
+    /// Computes (N − ½ tr N) y.
     pub(super) fn deviator_times(&self, builder: &mut Builder, y: Pair) -> Pair {
         let half = self.half_trace(builder);
         let difference = builder.sub(self.xx, half);

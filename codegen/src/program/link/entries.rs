@@ -1,4 +1,4 @@
-//! The equations of one link as entry points of their own, for trees in loops.
+//! Equations of one link as entry points, for trees in loops.
 
 use super::columns::Column;
 use super::functions::Functions;
@@ -10,7 +10,7 @@ use crate::program::{Entry, Op, ValueId};
 use crate::scene::Scene;
 
 impl EntryList<'_, '_> {
-    /// The entry points of a tree in loops, and its constants.
+    /// Adds the entry points of a tree in loops; returns its constants.
     pub(in crate::program) fn link_functions(
         &mut self,
         scene: &Scene,
@@ -34,7 +34,7 @@ impl EntryList<'_, '_> {
             forces,
             joints,
             forced: super::has_outside_torques(scene),
-            prescribed: !scene.prescribed.is_empty(),
+            prescribed: super::has_prescribed_links(scene),
             drive_torque: mechanics
                 .drive
                 .as_ref()
@@ -44,12 +44,15 @@ impl EntryList<'_, '_> {
             let outputs = functions.of(self, function);
             let purpose = Purpose::Link(function);
             let mut signature = self.naming.signature(purpose);
-            // The response stands before the elimination, the acceleration before the rest.
+            // Of two results the response comes before the elimination, and the acceleration before
+            // other values.
             signature.shape = match function {
                 LinkFunction::Inner => ResultShape::Split(outputs.len() - 3),
                 LinkFunction::Accelerate => ResultShape::Split(1),
                 LinkFunction::AccelerateLeaf => ResultShape::Scalar,
-                _ => ResultShape::Vector,
+                LinkFunction::Leaf | LinkFunction::Attach | LinkFunction::Pivot => {
+                    ResultShape::Vector
+                }
             };
             self.entries.push(Entry::new(signature, purpose, outputs));
         }
@@ -70,8 +73,8 @@ impl EntryList<'_, '_> {
         self.lowering.strips(scene, &table, [columns, body_columns])
     }
 
-    /// The columns that the functions read of a row, with one that comes last in any case;
-    /// these are numbered anew.
+    /// Returns the columns that the functions read, and renumbers their uses. If given, `last` is
+    /// included and comes last.
     fn columns_read(&mut self, rows: Argument, last: Option<Column>) -> Vec<Column> {
         let outputs = self.entries.iter().flat_map(|entry| &entry.outputs);
         let outputs: Vec<ValueId> = outputs.copied().collect();

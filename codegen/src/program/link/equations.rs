@@ -1,7 +1,7 @@
-//! The equations of one link, physics (10.4) to (10.8).
+//! Equations of one link, physics (10.4) to (10.8).
 //!
-//! All values are what the caller says: constants of the model and sines of a named link
-//! where a tree is written out, elements of arguments where the link stands in a loop.
+//! The caller supplies all values: constants of the model and sines of a named link if the tree is
+//! written out, elements of arguments if the link is in a loop.
 
 use super::deficit::Deficit;
 use crate::program::builder::Builder;
@@ -11,31 +11,31 @@ use crate::program::{Op, ValueId};
 /// A link: its constants in reduced units (`reduced_units`), and its motion.
 #[derive(Clone)]
 pub(super) struct ReducedLink {
-    /// The first moment ĥ = h + i e about the pivot.
+    /// First moment ĥ = h + i e about the pivot.
     pub(super) moment: Pair,
-    /// The moment of inertia M about the pivot.
+    /// Moment of inertia M about the pivot.
     pub(super) inertia: ValueId,
-    /// The part of the mass that no parent has in its constants.
+    /// Part of the mass that the parent's constants do not include.
     pub(super) mass: ValueId,
     /// The link's own unit of length.
     pub(super) length: ValueId,
-    /// One over it.
+    /// Reciprocal of the unit of length.
     pub(super) inverse_length: ValueId,
-    /// v: cosine and sine.
+    /// Direction v of the link: cosine and sine of its angle.
     pub(super) direction: Pair,
     pub(super) omega: ValueId,
-    /// The torque Q of joints, drag and drive.
+    /// Torque Q of joints, drag and drive.
     pub(super) torque: ValueId,
     /// Suffix of the names of the link's values.
     pub(super) suffix: String,
 }
 
-/// Response of subtrees on one pivot to its acceleration a: the force γ − N a, beside
-/// that of their mass.
+/// Response of the subtrees on one pivot to the pivot's acceleration a: the force γ − N a, in
+/// addition to the force on their mass.
 #[derive(Clone, Copy)]
 pub(super) struct Response {
     pub(super) deficit: Deficit,
-    /// γ.
+    /// Bias force γ.
     pub(super) bias_force: Pair,
 }
 
@@ -53,18 +53,19 @@ impl Response {
     }
 }
 
-/// The subtrees on a link, about the link's pivot, while its joint is held.
+/// Contribution of the subtrees on a link, about the link's pivot, if the link's joint does not
+/// move.
 #[derive(Clone, Copy)]
 pub(super) struct Attached {
-    /// Σ N.
+    /// Sum of the subtrees' deficits N.
     pub(super) deficit: Deficit,
-    /// The share of b.
+    /// Contribution to the coefficient b of the pivot's acceleration.
     pub(super) first_moment: Pair,
-    /// The share of J.
+    /// Contribution to the coefficient J of the angular acceleration.
     pub(super) inertia: ValueId,
-    /// The share of γ'.
+    /// Contribution to the force γ'.
     pub(super) force: Pair,
-    /// Σ y·γ'.
+    /// Torque Σ y·γ' of the forces γ' at the pivots y.
     pub(super) torque: ValueId,
 }
 
@@ -80,31 +81,31 @@ impl Attached {
     }
 }
 
-/// Factors of a link for the way down: ω̇ = −(b·a + κ)/J, or what follows in its place
-/// where ω̇ is given.
+/// Factors with which a link's acceleration is computed in the downward pass, ω̇ = −(b·a + κ)/J. If
+/// ω̇ is prescribed, they give the reaction torque instead.
 #[derive(Clone, Copy)]
 pub(super) struct Elimination {
-    /// b/J.
+    /// Factor b/J of the pivot's acceleration a.
     pub(super) gain: Pair,
-    /// κ/J.
+    /// Constant part κ/J.
     pub(super) offset: ValueId,
 }
 
 impl ReducedLink {
-    /// ω² in units of length.
+    /// Computes ω² in the link's unit of length.
     pub(super) fn centripetal(&self, builder: &mut Builder) -> ValueId {
         let squared = builder.mul(self.omega, self.omega);
         if self.suffix.is_empty() {
-            // One value in functions of links of several lengths.
+            // Shared by functions of links with different lengths.
             builder.name(squared, "omega_squared");
         }
         let centripetal = builder.mul(self.length, squared);
         builder.name(centripetal, &format!("centripetal{}", self.suffix))
     }
 
-    /// The link by itself, without what hangs from it.
+    /// Returns the contribution of the link itself, without its subtrees.
     pub(super) fn alone(&self, builder: &mut Builder) -> Attached {
-        let first_moment = builder.turn(self.moment, self.direction);
+        let first_moment = builder.complex_product(self.moment, self.direction);
         let centripetal = self.centripetal(builder);
         Attached {
             deficit: Deficit::zero(builder),
@@ -115,8 +116,8 @@ impl ReducedLink {
         }
     }
 
-    /// Subtrees that hang at λ, with ĥ and M of the link where its `body` counts here.
-    /// `passed_on` says whether γ' is needed by itself.
+    /// Adds subtrees that hang at λ; if `body` is given, also ĥ and M of the link. `passed_on` is
+    /// true if γ' itself is needed.
     ///
     /// (10.4), (10.5): y = λ v, b = ĥ v − N y, J = M − y·N y;
     /// (10.6): γ' = γ + i ω² ((ĥ − tr N λ) v + N y), Σ y·γ' = y·γ' + ω² λ × ĥ
@@ -138,7 +139,7 @@ impl ReducedLink {
             bias_force,
         } = response;
         let y = self.attachment(builder, place);
-        // Where the trace is a constant so is the lever, and N enters without it.
+        // If the trace of N is constant, so is the lever, and only the rest of N enters.
         let (part, first_moment, thrown) = if deficit.has_constant_trace() {
             let half = deficit.half_trace(builder);
             let lever = builder.scale_pair(half, place);
@@ -147,7 +148,7 @@ impl ReducedLink {
             let isotropic = builder.mul(half, square);
             inertia = builder.sub(inertia, isotropic);
             let part = deficit.deviator_times(builder, y);
-            let moment = builder.turn(lever, v);
+            let moment = builder.complex_product(lever, v);
             builder.name_pair(moment, &format!("moment@{}", self.suffix));
             let first_moment = builder.sub_pairs(moment, part);
             (part, first_moment, builder.add_pairs(moment, part))
@@ -156,7 +157,7 @@ impl ReducedLink {
             let lever = builder.scale_pair(trace, place);
             let lever = builder.sub_pairs(moment, lever);
             let part = deficit.times(builder, y);
-            let whole = builder.turn(moment, v);
+            let whole = builder.complex_product(moment, v);
             let first_moment = builder.sub_pairs(whole, part);
             builder.hint(trace, &format!("deficit_trace{}", self.suffix));
             builder.hint(lever[0], &format!("centrifugal_moment{}", self.suffix));
@@ -164,11 +165,11 @@ impl ReducedLink {
                 lever[1],
                 &format!("lateral_centrifugal_moment{}", self.suffix),
             );
-            let moment = builder.turn(lever, v);
+            let moment = builder.complex_product(lever, v);
             (part, first_moment, builder.add_pairs(moment, part))
         };
         builder.name_pair(part, &format!("deficit_moment@{}", self.suffix));
-        // One product after the other: each is fused with its difference.
+        // One product after the other, so that each is fused with its difference.
         for (component, part) in y.into_iter().zip(part) {
             let along = builder.mul(component, part);
             inertia = builder.sub(inertia, along);
@@ -195,22 +196,22 @@ impl ReducedLink {
         }
     }
 
-    /// y = λ v.
+    /// Computes y = λ v.
     fn attachment(&self, builder: &mut Builder, place: Pair) -> Pair {
-        let y = builder.turn(place, self.direction);
+        let y = builder.complex_product(place, self.direction);
         for (component, axis) in y.into_iter().zip(["x", "y"]) {
             builder.hint(component, &format!("attachment_{axis}{}", self.suffix));
         }
         y
     }
 
-    /// ĥ and M.
+    /// Returns ĥ and M.
     pub(super) fn body(&self) -> (Pair, ValueId) {
         (self.moment, self.inertia)
     }
 
-    /// Eliminates the link's angular acceleration, (10.7); `whole` is the link with
-    /// what hangs from it.
+    /// Eliminates the link's angular acceleration, (10.7); `whole` is the contribution of the link
+    /// and its subtrees.
     pub(super) fn eliminate(
         &self,
         builder: &mut Builder,
@@ -240,7 +241,7 @@ impl ReducedLink {
         (response, elimination)
     }
 
-    /// Response of a leaf, whose J is a constant: `gain` is ĥ/M, `inverse` 1/M.
+    /// Computes the response of a leaf, whose J is constant: `gain` is ĥ/M, `inverse` is 1/M.
     pub(super) fn leaf(
         &self,
         builder: &mut Builder,
@@ -248,7 +249,7 @@ impl ReducedLink {
         inverse: ValueId,
     ) -> (Response, Elimination) {
         let suffix = &self.suffix;
-        let gain = builder.turn(gain, self.direction);
+        let gain = builder.complex_product(gain, self.direction);
         builder.name_pair(gain, &format!("gain@{suffix}"));
         let first_moment = builder.scale_pair(self.inertia, gain);
         builder.name_pair(first_moment, &format!("first_moment@{suffix}"));
@@ -265,7 +266,8 @@ impl ReducedLink {
         (response, Elimination { gain, offset })
     }
 
-    /// −κ = Q − Σ y·γ'. Of the two the one that no sign stands before has a name.
+    /// Computes the net torque −κ = Q − Σ y·γ'. Of κ and −κ, the one without a leading sign is
+    /// named.
     pub(super) fn net_torque(&self, builder: &mut Builder, whole: &Attached) -> ValueId {
         let torque = builder.sub(self.torque, whole.torque);
         match *builder.op(torque) {
@@ -275,15 +277,15 @@ impl ReducedLink {
         torque
     }
 
-    /// ω̇ in units of length and in rad/s², (10.8), where `gravity` is that which the
-    /// pivot's acceleration makes apparent, −a.
+    /// Computes ω̇ in the link's unit of length and in rad/s², (10.8). `gravity` is −a, the
+    /// apparent gravity caused by the pivot's acceleration a.
     pub(super) fn accelerate(
         &self,
         builder: &mut Builder,
         elimination: &Elimination,
         gravity: Pair,
     ) -> [ValueId; 2] {
-        // The offset first: what it is formed of need not be kept for this.
+        // The offset comes first, so that its operands need not be kept.
         let mut tangential = builder.neg(elimination.offset);
         for (gain, component) in elimination.gain.into_iter().zip(gravity) {
             let part = builder.mul(gain, component);
@@ -300,13 +302,13 @@ impl ReducedLink {
         [tangential, alpha]
     }
 
-    /// v (ω̇ + i ω²): the acceleration against the pivot's at λ = 1.
+    /// Computes v (ω̇ + i ω²): the acceleration relative to the pivot at λ = 1.
     pub(super) fn end_acceleration(&self, builder: &mut Builder, tangential: ValueId) -> Pair {
         let centripetal = self.centripetal(builder);
-        builder.turn([tangential, centripetal], self.direction)
+        builder.complex_product([tangential, centripetal], self.direction)
     }
 
-    /// The apparent gravity at λ: −a − λ v (ω̇ + i ω²).
+    /// Computes the apparent gravity at λ: −a − λ v (ω̇ + i ω²).
     pub(super) fn gravity_at(
         &self,
         builder: &mut Builder,
@@ -323,13 +325,13 @@ impl ReducedLink {
     }
 }
 
-/// i ω² r.
+/// Computes i ω² r.
 fn inwards(builder: &mut Builder, centripetal: ValueId, r: Pair) -> Pair {
     let [x, y] = builder.scale_pair(centripetal, r);
     [builder.neg(y), x]
 }
 
-/// γ = γ' − b κ/J, and γ' + b ω̇ where ω̇ is given.
+/// Computes γ = γ' − b κ/J, or γ' + b ω̇ if ω̇ is prescribed.
 pub(super) fn passed_on(builder: &mut Builder, force: Pair, torque: ValueId, gain: Pair) -> Pair {
     let part = builder.scale_pair(torque, gain);
     builder.add_pairs(force, part)

@@ -1,5 +1,4 @@
-//! The functions of one link in a tree in loops, formed of its equations on elements of
-//! arguments.
+//! Functions of one link in a tree in loops: its equations, applied to elements of arguments.
 
 use super::columns::{Column, TorqueUnit};
 use super::deficit::{Deficit, Rest};
@@ -10,36 +9,37 @@ use crate::mechanics::{JointForces, LinkSymbols};
 use crate::program::ValueId;
 use crate::program::entry_list::EntryList;
 use crate::program::pair::Pair;
-use crate::scene::FrictionPlace;
+use crate::scene::FrictionContact;
 
-/// The links whose constants an entry point reads.
+/// Links whose constants an entry point reads.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Kind {
     Leaf,
     Inner,
-    /// A child, while the motion is its parent's.
+    /// A child; the motion passed to the function is that of its parent.
     Child,
     /// Any link.
     Any,
 }
 
-/// The functions of one link.
+/// Builder of the functions of one link.
 #[derive(Clone, Copy)]
 pub(super) struct Functions<'t> {
     pub(super) table: &'t Table,
-    /// The argument whose elements columns are.
+    /// Argument that holds the link's constants, one element per column.
     pub(super) rows: Argument,
     pub(super) link: &'t LinkSymbols,
     pub(super) forces: &'t JointForces,
     pub(super) joints: bool,
     pub(super) forced: bool,
-    /// Links may be held.
+    /// True if links may be prescribed.
     pub(super) prescribed: bool,
     pub(super) drive_torque: bool,
 }
 
 impl Functions<'_> {
-    /// A column: the number that all rows have, or an element of the row.
+    /// Returns a constant of the link: a number if it is the same in all rows, otherwise an element
+    /// of the row.
     pub(super) fn column(
         &self,
         list: &mut EntryList<'_, '_>,
@@ -51,7 +51,8 @@ impl Functions<'_> {
             (Kind::Inner, Column::DriveTorque) if self.drive_torque => None,
             (Kind::Child, _) => self.table.common_of_children(builder, column),
             (Kind::Any, _) => self.table.common_of_all(builder, column),
-            _ => self.table.common(builder, kind == Kind::Leaf, column),
+            (Kind::Leaf, _) => self.table.common(builder, true, column),
+            (Kind::Inner, _) => self.table.common(builder, false, column),
         };
         match common {
             Some(number) => builder.number(number),
@@ -65,7 +66,8 @@ impl Functions<'_> {
             .input(Argument::Motion, element as usize)
     }
 
-    /// The link; `torque` acts on it from its children's joints.
+    /// Returns the link in the form that the equations use; `torque` is the torque that its
+    /// children's joints exert on it.
     fn link(
         &self,
         list: &mut EntryList<'_, '_>,
@@ -86,8 +88,8 @@ impl Functions<'_> {
         let [joint, dragged] = self.resisting_torques(list, own);
         let outside = self.outside_torque(list, own);
         let builder = &mut list.lowering.builder;
-        // Those of the joint and of drag act against the link, those of τ, Q and the children's
-        // joints on it.
+        // The torques of the joint and of drag act against the link; those of τ, Q and the
+        // children's joints act on it.
         let resisting = builder.add(joint, dragged);
         let below = torque.unwrap_or_else(|| builder.integer(0));
         let pushed = builder.add(below, driven);
@@ -108,7 +110,7 @@ impl Functions<'_> {
         (link, joint)
     }
 
-    /// The torques of the joint on the parent and of drag on the ground, over m l².
+    /// Returns the torques of the joint on the parent and of drag on the ground, divided by m l².
     fn resisting_torques(&self, list: &mut EntryList<'_, '_>, kind: Kind) -> [ValueId; 2] {
         let unit = TorqueUnit::Reduced;
         let JointForces {
@@ -118,16 +120,16 @@ impl Functions<'_> {
             ..
         } = self.forces;
         let mut known = self.known_forces(list, kind, unit);
-        known.push(self.known_braking(list, kind, unit, FrictionPlace::Joint));
+        known.push(self.known_braking(list, kind, unit, FrictionContact::Joint));
         let [bent, slowed] =
             [spring, friction].map(|torque| list.lowering.at_values(torque, &known));
         let torque = list.lowering.builder.add(slowed, bent);
         let torque = list.lowering.builder.name(torque, "joint_torque");
-        known.push(self.known_braking(list, kind, unit, FrictionPlace::Ground));
+        known.push(self.known_braking(list, kind, unit, FrictionContact::Ground));
         [torque, list.lowering.at_values(drag, &known)]
     }
 
-    /// The torque from outside over m l².
+    /// Returns the external torque, divided by m l².
     fn outside_torque(&self, list: &mut EntryList<'_, '_>, kind: Kind) -> ValueId {
         if !self.forced {
             return list.lowering.builder.integer(0);
@@ -135,16 +137,16 @@ impl Functions<'_> {
         let unit = self.column(list, kind, Column::PerTorque);
         let mut torque = self.motion(list, Motion::OutsideTorque);
         if self.prescribed {
-            // Of a held link that is the acceleration.
-            let held = self.motion(list, Motion::Held);
+            // For a prescribed link this element holds the acceleration.
+            let prescribed = self.motion(list, Motion::Prescribed);
             let builder = &mut list.lowering.builder;
-            let acceleration = builder.mul(held, torque);
+            let acceleration = builder.mul(prescribed, torque);
             torque = builder.sub(torque, acceleration);
         }
         list.lowering.builder.mul(unit, torque)
     }
 
-    /// A response in an argument, and the torque of joints behind it.
+    /// Reads a response from an argument, and the torque of joints that follows it.
     fn given(
         &self,
         list: &mut EntryList<'_, '_>,
@@ -178,19 +180,20 @@ impl Functions<'_> {
         all.into_iter().chain(torque).collect()
     }
 
-    /// Where the children hang; with several places, where this child does.
-    fn place(&self, list: &mut EntryList<'_, '_>, kind: Kind) -> Pair {
+    /// Returns the point of the link from which its children hang. If they hang from several
+    /// points, returns the point of the child to which the function refers.
+    fn children_pivot(&self, list: &mut EntryList<'_, '_>, kind: Kind) -> Pair {
         [Column::Along, Column::Across].map(|column| self.column(list, kind, column))
     }
 
-    /// ĥ/M and 1/M of a leaf.
+    /// Returns ĥ/M and 1/M of a leaf.
     fn leaf_constants(&self, list: &mut EntryList<'_, '_>) -> (Pair, ValueId) {
         let gain = [Column::GainAlong, Column::GainAcross];
         let gain = gain.map(|column| self.column(list, Kind::Leaf, column));
         (gain, self.column(list, Kind::Leaf, Column::InverseInertia))
     }
 
-    /// The outputs of a function.
+    /// Computes the outputs of a function.
     pub(super) fn of(&self, list: &mut EntryList<'_, '_>, function: LinkFunction) -> Vec<ValueId> {
         match function {
             LinkFunction::Leaf => self.leaf(list),
@@ -214,13 +217,13 @@ impl Functions<'_> {
         link: &ReducedLink,
     ) -> (Response, Elimination) {
         let (gain, inverse) = self.leaf_constants(list);
-        let grip = self.grip(list, link);
+        let acceleration_choice = self.acceleration_choice(list, link);
         let builder = &mut list.lowering.builder;
-        match grip {
+        match acceleration_choice {
             None => link.leaf(builder, gain, inverse),
-            Some(grip) => {
+            Some(acceleration_choice) => {
                 let alone = link.alone(builder);
-                link.hold_or_eliminate(builder, &alone, inverse, &grip)
+                link.prescribe_or_eliminate(builder, &alone, inverse, &acceleration_choice)
             }
         }
     }
@@ -231,7 +234,7 @@ impl Functions<'_> {
             return self.outputs(list, &response, torque);
         }
         let (link, _) = self.link(list, Kind::Child, None);
-        let place = self.place(list, Kind::Child);
+        let place = self.children_pivot(list, Kind::Child);
         let builder = &mut list.lowering.builder;
         let attached = link.attach(builder, place, &response, None, true);
         let Attached {
@@ -241,7 +244,7 @@ impl Functions<'_> {
             force: [x, y],
             torque: turning,
         } = attached;
-        // Deductions from a link's own moment and inertia.
+        // Subtracted from the link's own moment and inertia.
         let [moment_x, moment_y] = first_moment.map(|component| builder.neg(component));
         let inertia = builder.neg(inertia);
         let yy = deficit.yy(builder);
@@ -276,19 +279,19 @@ impl Functions<'_> {
         } else {
             let (response, below) = self.given(list, Argument::Sums);
             let (link, joint) = self.link(list, Kind::Inner, below);
-            let place = self.place(list, Kind::Inner);
+            let place = self.children_pivot(list, Kind::Inner);
             let builder = &mut list.lowering.builder;
             let whole = link.attach(builder, place, &response, Some(link.body()), true);
             (whole, link, joint)
         };
-        let grip = self.grip(list, &link);
+        let acceleration_choice = self.acceleration_choice(list, &link);
         let builder = &mut list.lowering.builder;
-        let (response, elimination) = match grip {
+        let (response, elimination) = match acceleration_choice {
             None => link.eliminate(builder, &whole),
-            Some(grip) => {
+            Some(acceleration_choice) => {
                 let one = builder.integer(1);
                 let inverse = builder.div(one, whole.inertia);
-                link.hold_or_eliminate(builder, &whole, inverse, &grip)
+                link.prescribe_or_eliminate(builder, &whole, inverse, &acceleration_choice)
             }
         };
         let mut outputs = self.outputs(list, &response, self.joints.then_some(joint));
@@ -301,7 +304,7 @@ impl Functions<'_> {
     }
 
     fn pivot(&self, list: &mut EntryList<'_, '_>) -> Vec<ValueId> {
-        let place = self.place(list, Kind::Child);
+        let place = self.children_pivot(list, Kind::Child);
         let builder = &mut list.lowering.builder;
         let mut at = |index| builder.input(Argument::Carried, index);
         let gravity = [at(0), at(1)];
@@ -309,7 +312,7 @@ impl Functions<'_> {
             return gravity.to_vec();
         }
         let end = [at(2), at(3)];
-        let moved = builder.turn(place, end);
+        let moved = builder.complex_product(place, end);
         builder.sub_pairs(gravity, moved).to_vec()
     }
 
@@ -329,7 +332,7 @@ impl Functions<'_> {
             let end = link.end_acceleration(builder, tangential);
             return [alpha].into_iter().chain(gravity).chain(end).collect();
         }
-        let place = self.place(list, Kind::Inner);
+        let place = self.children_pivot(list, Kind::Inner);
         let builder = &mut list.lowering.builder;
         let below = link.gravity_at(builder, place, gravity, tangential);
         [alpha].into_iter().chain(below).collect()
@@ -355,5 +358,5 @@ pub(super) enum Motion {
     JointAngle,
     JointRate,
     OutsideTorque,
-    Held,
+    Prescribed,
 }

@@ -1,4 +1,4 @@
-//! Values of the symbols of one link: constants of its row, and its motion.
+//! Values of the symbols of one link: constants from its row, and its motion.
 
 use super::columns::{Column, TorqueUnit};
 use super::functions::{Functions, Kind, Motion};
@@ -7,10 +7,11 @@ use crate::mechanics::expression::SymbolId;
 use crate::program::ValueId;
 use crate::program::entry_list::EntryList;
 use crate::program::friction::Law;
-use crate::scene::FrictionPlace;
+use crate::scene::FrictionContact;
 
 impl Functions<'_> {
-    /// Values of the symbols in the torques of a link but for friction that is not viscous.
+    /// Returns the values of the symbols in the torques of a link, except friction that is not
+    /// viscous.
     pub(super) fn known_forces(
         &self,
         list: &mut EntryList<'_, '_>,
@@ -32,17 +33,17 @@ impl Functions<'_> {
         known
     }
 
-    /// The torque of friction that is not viscous, at a place.
+    /// Returns the torque of friction that is not viscous, in the joint or against the ground.
     pub(super) fn known_braking(
         &self,
         list: &mut EntryList<'_, '_>,
         kind: Kind,
         unit: TorqueUnit,
-        place: FrictionPlace,
+        place: FrictionContact,
     ) -> (SymbolId, ValueId) {
         let [coulomb, quadratic, air] = unit.laws();
         let (law, rate, suffix) = match place {
-            FrictionPlace::Joint => {
+            FrictionContact::Joint => {
                 let law = Law {
                     coulomb: self.column(list, kind, coulomb),
                     quadratic: self.column(list, kind, quadratic),
@@ -50,7 +51,7 @@ impl Functions<'_> {
                 };
                 (law, Motion::JointRate, "_joint")
             }
-            FrictionPlace::Ground => {
+            FrictionContact::Ground => {
                 let law = Law {
                     coulomb: list.lowering.builder.integer(0),
                     quadratic: self.column(list, kind, air),
@@ -64,8 +65,8 @@ impl Functions<'_> {
         (self.forces.symbols.braking[place as usize], torque)
     }
 
-    /// Values of the symbols of a link as a body, whose children's pivot is in these columns;
-    /// torques in N m.
+    /// Returns the values of the symbols of a link's body; the given columns contain the position
+    /// of its children's pivot. Torques are in N m.
     pub(super) fn known_body(
         &self,
         list: &mut EntryList<'_, '_>,
@@ -76,7 +77,7 @@ impl Functions<'_> {
         let link = self.link;
         let unit = TorqueUnit::NewtonMetre;
         let mut known = self.known_forces(list, kind, unit);
-        for place in FrictionPlace::ALL {
+        for place in FrictionContact::ALL {
             known.push(self.known_braking(list, kind, unit, place));
         }
         let constants = [

@@ -1,4 +1,4 @@
-//! Constants of what acts along lines between points of a tree in loops.
+//! Constants of the forces along lines between points, for a tree in loops.
 
 use super::loop_tree::{LineConstants, LinePotentialConstants};
 use crate::program::ConstantId;
@@ -6,7 +6,7 @@ use crate::program::lower::Lowering;
 use crate::scene::{DescribedLinePotential, LinkId, Quantity, Scene, SpringLineRun};
 
 impl Lowering<'_> {
-    /// The lines of a scene, those of the same constants together.
+    /// Returns the lines of a scene; lines with the same constants are combined.
     pub(super) fn line_constants(&mut self, scene: &Scene) -> Vec<LineConstants> {
         let mut found: Vec<LineConstants> = Vec::new();
         for SpringLineRun { first, count } in scene.line_runs() {

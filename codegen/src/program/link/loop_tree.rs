@@ -1,5 +1,5 @@
-//! A tree in loops as data: its strips with their constants, and what the functions of its
-//! links read.
+//! A tree in loops as data: its strips (neighbouring links that share their constants), and the
+//! constants that the functions of its links read.
 
 use super::columns::Column;
 use crate::functions::{Argument, LINK_PROPERTIES};
@@ -14,26 +14,26 @@ pub const LINK_MOTION: [&str; 7] = [
     "joint_angle",
     "joint_rate",
     "outside_torque",
-    "held",
+    "prescribed",
 ];
 
-/// Neighbours that share their constants.
+/// Constants of a strip: neighbouring links that share all constants.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct StripConstants {
-    /// Name of the generation or link.
+    /// Name of the generation or of the single link.
     pub name: String,
-    /// True if nothing hangs from its links.
+    /// True if the links of the strip have no children.
     pub is_leaf: bool,
-    /// A constant for each of the columns that the equations read.
+    /// One constant per column that the equations of motion read.
     pub constants: Vec<ConstantId>,
-    /// A constant for each of the columns that energies and powers read.
+    /// One constant per column that energies and powers read.
     pub body: Vec<ConstantId>,
-    /// [Properties](crate::functions::LINK_PROPERTIES) of the links, if positions are asked for.
+    /// [Properties](crate::functions::LINK_PROPERTIES) of the links, if positions are requested.
     pub properties: Option<[ConstantId; LINK_PROPERTIES.len()]>,
 }
 
 impl StripConstants {
-    /// All constants that it holds.
+    /// Returns all constants of the strip.
     fn all_constants(&self) -> impl Iterator<Item = ConstantId> {
         let properties = self.properties.iter().flatten();
         let all = self.constants.iter().chain(&self.body);
@@ -44,22 +44,22 @@ impl StripConstants {
 /// A spring and friction between links that are not parent and child.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SpringDamperConstants {
-    /// The clause in words, as in `siblings(arm)`.
+    /// Clause in words, as in `siblings(arm)`.
     pub what: String,
-    /// The pairs of links that it acts between, of which there are some.
+    /// Pairs of links that it connects, at least one.
     pub pairs: Vec<PairRun>,
-    /// Stiffness.
+    /// Stiffness, in N m.
     pub spring: ConstantId,
-    /// Difference of the angles at which the spring is at rest.
+    /// Difference of the angles at which the spring is at rest, in rad.
     pub rest: ConstantId,
-    /// Viscous friction.
+    /// Coefficient of viscous friction, in N m s.
     pub friction: ConstantId,
-    /// Coulomb and quadratic friction and their width, if there is some.
+    /// Coulomb friction, quadratic friction and their smoothing width, if there are any.
     pub law: Option<[ConstantId; 3]>,
 }
 
 impl SpringDamperConstants {
-    /// All constants that it holds, with words for them.
+    /// Returns all constants, each with a word for it.
     pub fn named(&self) -> impl Iterator<Item = (&'static str, ConstantId)> {
         let own = [
             ("spring", self.spring),
@@ -74,45 +74,45 @@ impl SpringDamperConstants {
     }
 }
 
-/// Lines between points that have the same constants.
+/// Lines between points that share their constants.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct LineConstants {
-    /// The clause in words, as in `siblings(arm)`.
+    /// Clause in words, as in `siblings(arm)`.
     pub what: String,
-    /// Runs of lines: the links of the arms of the first line, and the number of lines, each with
-    /// the links behind those of the one before.
+    /// Runs of lines: the links of the first line's arms, and the number of lines. In each line all
+    /// link indices are larger by one than in the line before.
     pub runs: Vec<(Vec<usize>, usize)>,
-    /// Components of the arms along and across their links.
+    /// Components of the arms along and across their links, in m.
     pub arms: Vec<[ConstantId; 2]>,
-    /// The part that no angle turns.
+    /// Constant part of the line, which no angle rotates, in m.
     pub offset: [ConstantId; 2],
-    /// Terms of the energy.
+    /// Terms of the potential energy.
     pub potentials: Vec<LinePotentialConstants>,
-    /// Viscous friction, if there is some.
+    /// Coefficient of viscous friction, in N s/m, if there is a damper.
     pub friction: Option<ConstantId>,
 }
 
-/// A term of the energy that a line stores.
+/// A term of the potential energy of a line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LinePotentialConstants {
     /// A spring.
     Spring {
-        /// Stiffness.
+        /// Stiffness, in N/m.
         stiffness: ConstantId,
-        /// Length at rest, unless that is zero.
+        /// Rest length, in m, if it is not zero.
         rest: Option<ConstantId>,
     },
-    /// A force by a power of the distance.
+    /// A power law of the distance.
     InversePower {
-        /// Strength.
+        /// Strength A, in J mⁿ.
         strength: ConstantId,
-        /// Exponent.
+        /// Exponent n of the energy A/ℓⁿ.
         exponent: u32,
     },
 }
 
 impl LineConstants {
-    /// Returns true if other lines of the same clause have the same constants.
+    /// Returns true if two lines of one clause have the same constants.
     pub(super) fn is_like(&self, other: &Self) -> bool {
         let Self {
             what,
@@ -127,7 +127,7 @@ impl LineConstants {
             && *friction == other.friction
     }
 
-    /// All constants that it holds, with words for them.
+    /// Returns all constants, each with a word for it.
     pub fn named(&self) -> impl Iterator<Item = (&'static str, ConstantId)> {
         let arms = self.arms.iter();
         let arms = arms.flat_map(|&[along, across]| [("along", along), ("across", across)]);
@@ -149,31 +149,31 @@ impl LineConstants {
 /// A tree in loops.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct LoopTree {
-    /// The constants that the equations read, by strip.
+    /// Columns of constants that the equations of motion read.
     pub columns: Vec<Column>,
-    /// The constants that energies and powers read, likewise.
+    /// Columns of constants that energies and powers read.
     pub body_columns: Vec<Column>,
-    /// From the root outwards.
+    /// Strips, from the root outwards.
     pub strips: Vec<StripConstants>,
     /// Springs and friction between links that are not parent and child.
     pub spring_dampers: Vec<SpringDamperConstants>,
-    /// What acts along lines between points.
+    /// Forces along lines between points.
     pub lines: Vec<LineConstants>,
-    /// True if children of one link hang at several places.
+    /// True if children of one link hang at different points.
     pub has_several_places: bool,
     /// True if joints have torques.
     pub has_joint_torques: bool,
-    /// True if torques act on the links that are not of their joints: from outside, between links
-    /// that are not parent and child, or along lines.
+    /// True if links have torques other than those of their joints: external torques, or torques
+    /// between links that are not parent and child, or along lines.
     pub has_outside_torques: bool,
-    /// True if links may be held, with accelerations that are given.
-    pub has_held_links: bool,
+    /// True if links may have prescribed accelerations.
+    pub has_prescribed_links: bool,
     /// True if a torque acts on the root.
     pub has_drive_torque: bool,
 }
 
 impl LoopTree {
-    /// All constants that its tables hold.
+    /// Returns all constants of the tree.
     pub fn all_constants(&self) -> impl Iterator<Item = ConstantId> {
         let rows = self.strips.iter().flat_map(StripConstants::all_constants);
         let between = self.spring_dampers.iter();
@@ -182,31 +182,55 @@ impl LoopTree {
         rows.chain(between.map(|(_, id)| id))
     }
 
-    /// Returns true if something acts between links that are not parent and child, or along a line.
+    /// Returns true if forces act between links that are not parent and child, or along a line.
     pub fn is_coupled(&self) -> bool {
         !(self.spring_dampers.is_empty() && self.lines.is_empty())
     }
 
-    /// Number of elements of an argument of the link functions.
+    /// Returns the number of elements of an argument of the link functions.
     pub fn length(&self, argument: Argument) -> usize {
         let torque = usize::from(self.has_joint_torques);
         match argument {
             Argument::Constants => self.columns.len(),
             Argument::Body => self.body_columns.len(),
             Argument::Motion => {
-                5 + usize::from(self.has_outside_torques) + usize::from(self.has_held_links)
+                5 + usize::from(self.has_outside_torques) + usize::from(self.has_prescribed_links)
             }
             Argument::Response => 5 + torque,
             Argument::Sums if self.has_several_places => 9 + torque,
             Argument::Sums => 5 + torque,
             Argument::Elimination => 3,
             Argument::Carried if self.has_several_places => 4,
+            Argument::Carried | Argument::Pivot => 2,
             Argument::Given(names) => names.len(),
-            _ => 2,
+            Argument::Time
+            | Argument::Theta
+            | Argument::Omega
+            | Argument::AbsoluteMomenta
+            | Argument::Coordinates
+            | Argument::Rates
+            | Argument::Momenta
+            | Argument::Forces
+            | Argument::Alpha
+            | Argument::Actions
+            | Argument::Difference(_)
+            | Argument::DifferenceRate(_)
+            | Argument::SmallDifferences
+            | Argument::SmallRates
+            | Argument::Torques
+            | Argument::SmallTorques
+            | Argument::Prescribed(_)
+            | Argument::Absolute
+            | Argument::Symmetric => {
+                unreachable!(
+                    "`{}` is not an argument of one link's functions",
+                    argument.name()
+                )
+            }
         }
     }
 
-    /// Name of an element.
+    /// Returns the name of an element.
     pub fn element(&self, argument: Argument, index: usize) -> &'static str {
         const RESPONSE: [&str; 6] = [
             "deficit_xx_child",
@@ -245,7 +269,31 @@ impl LoopTree {
             Argument::Sums => &SUMS,
             Argument::Elimination => &["gain_x", "gain_y", "offset"],
             Argument::Given(names) => names,
-            _ => &["gravity_x", "gravity_y", "end_x", "end_y"],
+            Argument::Carried | Argument::Pivot => &["gravity_x", "gravity_y", "end_x", "end_y"],
+            Argument::Time
+            | Argument::Theta
+            | Argument::Omega
+            | Argument::AbsoluteMomenta
+            | Argument::Coordinates
+            | Argument::Rates
+            | Argument::Momenta
+            | Argument::Forces
+            | Argument::Alpha
+            | Argument::Actions
+            | Argument::Difference(_)
+            | Argument::DifferenceRate(_)
+            | Argument::SmallDifferences
+            | Argument::SmallRates
+            | Argument::Torques
+            | Argument::SmallTorques
+            | Argument::Prescribed(_)
+            | Argument::Absolute
+            | Argument::Symmetric => {
+                unreachable!(
+                    "`{}` is not an argument of one link's functions",
+                    argument.name()
+                )
+            }
         };
         names[index]
     }

@@ -1,11 +1,11 @@
-//! The equations of one link in a tree, by articulated recursion (physics §10;
-//! Featherstone, Rigid Body Dynamics Algorithms, 2008, chapter 7): O(n) operations.
+//! Equations of one link in a tree, by articulated recursion (physics §10; Featherstone, Rigid Body
+//! Dynamics Algorithms, 2008, chapter 7): O(n) operations.
 //!
-//! A subtree whose pivot is accelerated by a answers with the force S a + γ − N a, with
-//! a mass S that is part of the constants of its parent. From the leaves to the root
-//! each link's own acceleration is eliminated from the bias force γ and the deficit N;
-//! from the root to the leaves it is formed. `equations` are those of one link,
-//! `tree` takes them through a tree that is written out.
+//! A subtree whose pivot has the acceleration a responds with the force S a + γ − N a. The mass S
+//! is a part of its parent's constants. From the leaves to the root, each link's acceleration is
+//! eliminated from the bias force γ and the deficit N; from the root to the leaves it is computed.
+//! `equations` contains the equations of one link, `tree` applies them to a tree that is written
+//! out.
 
 mod body;
 mod columns;
@@ -13,10 +13,10 @@ mod deficit;
 mod entries;
 mod equations;
 mod functions;
-mod held;
 mod known;
 mod lines;
 mod loop_tree;
+mod prescribed;
 mod quantities;
 mod reduced_units;
 mod root;
@@ -34,12 +34,17 @@ pub use loop_tree::{
 
 use crate::scene::{Layout, LinkId, Scene};
 
-/// Returns true if torques act on links that are not of their joints.
+/// Returns true if links have torques other than those of their joints.
 fn has_outside_torques(scene: &Scene) -> bool {
     scene.requests.forces || scene.is_coupled()
 }
 
-/// The links that hang from each link.
+/// Returns true if the scene has links with prescribed motion.
+fn has_prescribed_links(scene: &Scene) -> bool {
+    scene.requests.inverse_dynamics || !scene.prescribed.is_empty()
+}
+
+/// Returns the children of each link.
 fn children(scene: &Scene) -> Vec<Vec<usize>> {
     let mut children = vec![Vec::new(); scene.links.len()];
     for (index, link) in scene.links.iter().enumerate() {
@@ -50,15 +55,15 @@ fn children(scene: &Scene) -> Vec<Vec<usize>> {
     children
 }
 
-/// How many links each link of the scene that hangs from another stands for there.
+/// Returns, for each link, the number of copies below its parent that the link represents.
 fn copies(scene: &Scene) -> i64 {
     match scene.layout {
         Layout::Generations { branching, .. } => branching as i64,
-        _ => 1,
+        Layout::Unrolled | Layout::Links => 1,
     }
 }
 
-/// `name`, `name_2`, … for the pivots on one link.
+/// Returns `name`, `name_2`, … for the pivots on one link.
 fn numbered(name: &str, number: usize) -> String {
     match number {
         0 => name.to_owned(),

@@ -1,4 +1,4 @@
-//! Quantities of links as constants of the model.
+//! Conversion of quantities of links to constants of the model.
 
 use crate::functions::LINK_PROPERTIES;
 use crate::mechanics::Mechanics;
@@ -8,7 +8,7 @@ use crate::scene::QuantityAtom::{Exact, Parameter};
 use crate::scene::{Link, Offset, Quantity};
 
 impl Lowering<'_> {
-    /// A quantity of the description as a constant.
+    /// Converts a quantity of the description to a constant.
     pub(super) fn quantity(&mut self, quantity: &Quantity) -> ConstantId {
         let mechanics: &Mechanics = self.mechanics;
         match quantity {
@@ -53,7 +53,7 @@ impl Lowering<'_> {
         [self.value_of(&point.along), self.value_of(&point.lateral)]
     }
 
-    /// The properties of a link.
+    /// Returns the properties of a link as constants.
     pub(super) fn link_properties(&mut self, link: &Link) -> [ConstantId; LINK_PROPERTIES.len()] {
         link.properties().map(|quantity| self.quantity(quantity))
     }

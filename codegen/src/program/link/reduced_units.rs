@@ -1,6 +1,6 @@
-//! Units in which the recursion has fewest constants to multiply with: each
-//! link measures its turning by the acceleration of the pivot that it carries,
-//! and mass and length are those of the commonest leaf.
+//! Units in which the recursion multiplies with as few constants as possible. The angular
+//! acceleration of a link is replaced by the resulting acceleration of the pivot of its children;
+//! mass and length are in units of the most frequent kind of leaf.
 
 use crate::mechanics::Joint;
 use crate::program::ValueId;
@@ -9,39 +9,39 @@ use crate::program::lower::{Environment, Lowering};
 use crate::program::pair::Pair;
 use crate::scene::{LinkId, PassiveTorques, Scene};
 
-/// Constants of the links of one orbit, with L the link's own unit of length
-/// and m, l the tree's units of mass and length.
+/// Constants of the links of one orbit (equal copies). L is the link's own unit of length; m, l are
+/// the tree's units of mass and length.
 pub(super) struct Unit {
-    /// (h + i e)/(L m).
+    /// First moment (h + i e)/(L m).
     pub(super) moment: Pair,
-    /// M/(L² m).
+    /// Moment of inertia M/(L² m).
     pub(super) inertia: ValueId,
-    /// L/l.
+    /// Length ratio L/l.
     pub(super) length: ValueId,
-    /// l/L.
+    /// Length ratio l/L.
     pub(super) inverse_length: ValueId,
-    /// 1/(L m l).
+    /// Factor 1/(L m l) for torques.
     pub(super) per_torque: ValueId,
-    /// (ℓ + i w)/L of the parent.
+    /// Position (ℓ + i w)/L of the pivot, with the unit L of the parent.
     pub(super) place: Pair,
-    /// Friction and spring as they are.
+    /// Friction and spring in SI units.
     pub(super) passive: PassiveTorques<ValueId>,
 }
 
 /// All constants of the recursion.
 pub(super) struct Units {
-    /// By orbit.
+    /// Constants of the links, by orbit.
     pub(super) links: Vec<Unit>,
-    /// m, l.
+    /// Units m and l of the tree.
     pub(super) tree: [ValueId; 2],
-    /// 1/l.
+    /// Reciprocal 1/l of the unit of length.
     pub(super) per_length: ValueId,
-    /// g/l.
+    /// Gravity g/l.
     pub(super) gravity: ValueId,
 }
 
 impl Lowering<'_> {
-    /// Constants of a tree that is written out.
+    /// Returns the constants of a tree that is written out.
     pub(super) fn units(&mut self, scene: &Scene, environment: &mut Environment<'_>) -> Units {
         let mechanics = self.mechanics;
         let joints = mechanics.articulation.joints.iter();
@@ -54,8 +54,8 @@ impl Lowering<'_> {
 }
 
 impl Units {
-    /// Of constants by orbit in SI units. `own` says whether a link with children has a unit of
-    /// length of its own, or that of the tree.
+    /// Converts constants by orbit from SI units. `own` is true if a link with children has its own
+    /// unit of length, and false if it has that of the tree.
     pub(super) fn of(
         builder: &mut Builder,
         scene: &Scene,
@@ -114,7 +114,7 @@ impl Units {
     }
 }
 
-/// The pivot that most of a link's children hang from, if it lies on the link.
+/// Returns the pivot from which most of a link's children hang, if it lies on the link's axis.
 fn commonest_pivot(
     builder: &mut Builder,
     scene: &Scene,
@@ -136,13 +136,14 @@ fn commonest_pivot(
     commonest.map(|(pivot, _)| pivot[0])
 }
 
-/// The centre of oscillation, M/h.
+/// Returns the centre of oscillation, M/h.
 fn oscillation(builder: &mut Builder, scene: &Scene, given: &Joint<ValueId>) -> Option<ValueId> {
     let divides = builder.is_never_zero(given.moment[0], scene);
     divides.then(|| builder.div(given.inertia, given.moment[0]))
 }
 
-/// h²/M and M/h of the leaves that are most.
+/// Returns h²/M and M/h of the most frequent kind of leaf; these become the units of mass and
+/// length.
 fn commonest_leaf(
     builder: &mut Builder,
     scene: &Scene,

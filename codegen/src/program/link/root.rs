@@ -7,8 +7,8 @@ use crate::program::entry_list::EntryList;
 use crate::program::lower::Environment;
 
 impl EntryList<'_, '_> {
-    /// Apparent gravity at the root's pivot and, where there is a drive, the torque on
-    /// the root, in reduced units.
+    /// Adds the apparent gravity at the root's pivot and, if there is a drive, the torque on the
+    /// root, in reduced units.
     pub(super) fn root(&mut self, mechanics: &Mechanics, table: &Table) {
         let units = &table.units;
         let mut environment = Environment::new(&mechanics.absolute, Argument::Theta, None, None);

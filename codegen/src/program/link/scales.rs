@@ -1,4 +1,4 @@
-//! Energies by scale in a tree in loops: the functions of one link.
+//! Functions of one link for energies by scale (generation of the branching), in a tree in loops.
 
 use super::columns::Column;
 use super::deficit::{Deficit, Rest};
@@ -12,7 +12,7 @@ use crate::program::entry_list::EntryList;
 use crate::program::pair::Pair;
 
 impl EntryList<'_, '_> {
-    /// The entry points of energies by scale.
+    /// Adds the entry points of energies by scale.
     pub(super) fn scale_functions(
         &mut self,
         functions: &Functions<'_>,
@@ -32,7 +32,7 @@ impl EntryList<'_, '_> {
     }
 }
 
-/// What the functions are formed of.
+/// Derived formulas from which the functions for energies by scale are built.
 struct ScaleParts<'t> {
     functions: &'t Functions<'t>,
     body: &'t LinkBody,
@@ -60,7 +60,7 @@ impl ScaleParts<'_> {
             .collect()
     }
 
-    /// Values of the symbols of a link, and of what the function is given.
+    /// Returns the values of a link's symbols and of the function's arguments.
     fn known(
         &self,
         list: &mut EntryList<'_, '_>,
@@ -112,7 +112,7 @@ impl ScaleParts<'_> {
         let slope = list.lowering.at_values(&self.scales.rate_slope, &known);
         let (link, place) = self.functions.resting(list, Some(slope));
         let builder = &mut list.lowering.builder;
-        let y = builder.turn(place, link.direction);
+        let y = builder.complex_product(place, link.direction);
         let pull = builder.dot(y, below);
         let torque = builder.sub(link.torque, pull);
         let part = builder.scale_pair(torque, gain);
@@ -144,7 +144,7 @@ impl ScaleParts<'_> {
 }
 
 impl Functions<'_> {
-    /// The link at rest, in the units of the recursion, under a torque in N m.
+    /// Returns the link at rest under a torque in N m, in the units of the recursion.
     fn resting(
         &self,
         list: &mut EntryList<'_, '_>,

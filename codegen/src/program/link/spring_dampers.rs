@@ -2,10 +2,10 @@
 
 use super::loop_tree::SpringDamperConstants;
 use crate::program::lower::Lowering;
-use crate::scene::{DescribedSpringDamper, FrictionPlace, Scene};
+use crate::scene::{DescribedSpringDamper, FrictionContact, Scene};
 
 impl Lowering<'_> {
-    /// The spring-dampers of a scene, as far as they act on its links.
+    /// Returns the spring-dampers of a scene that connect at least one pair of its links.
     pub(super) fn spring_damper_constants(&mut self, scene: &Scene) -> Vec<SpringDamperConstants> {
         let mut found = Vec::new();
         for DescribedSpringDamper {
@@ -18,7 +18,7 @@ impl Lowering<'_> {
             if pairs.is_empty() {
                 continue;
             }
-            let law = torques.law(FrictionPlace::Joint);
+            let law = torques.law(FrictionContact::Joint);
             let values = [&law.coulomb, &law.quadratic, &law.width];
             found.push(SpringDamperConstants {
                 what: what.clone(),

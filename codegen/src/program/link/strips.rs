@@ -1,5 +1,4 @@
-//! Constants of trees in loops, by strip: a generation, or a link of a tree that is no
-//! rule.
+//! Constants of trees in loops, by strip: a generation of a rule, or a single link of another tree.
 
 use super::columns::Column;
 use super::loop_tree::{LoopTree, StripConstants};
@@ -12,25 +11,26 @@ use crate::program::lower::Lowering;
 use crate::program::{ConstantId, ValueId};
 use crate::scene::{Link, LinkId, PassiveTorques, Scene};
 
-/// All columns of all orbits, before equations are formed of them.
+/// All columns of all orbits (equal copies of a link), before equations use them.
 pub(super) struct Table {
     pub(super) units: Units,
-    /// By orbit, then by column.
+    /// Constants by orbit, then by column.
     pub(super) rows: Vec<[ValueId; Column::ALL.len()]>,
-    /// −g/l.
+    /// Apparent gravity −g/l at the root's pivot.
     pub(super) root_gravity: ValueId,
-    /// By orbit.
+    /// For each orbit, true if its links have no children.
     pub(super) is_leaf: Vec<bool>,
     pub(super) has_several_places: bool,
 }
 
 impl Table {
-    /// 1/(m l²), which all rows have.
+    /// Returns the factor 1/(m l²), which all rows share.
     pub(super) fn per_torque(&self) -> ValueId {
         self.rows[0][Column::PerTorque as usize]
     }
 
-    /// The number in a column that leaves, or others, have in common.
+    /// Returns the number that a column contains for all leaves, or for all other links; `None` if
+    /// they differ.
     pub(super) fn common(
         &self,
         builder: &Builder,
@@ -42,12 +42,12 @@ impl Table {
         shared(builder, rows.map(|(row, _)| row[column as usize]))
     }
 
-    /// Number that all links have in a column, if it is one.
+    /// Returns the number that all links have in a column, if they share one.
     pub(super) fn common_of_all(&self, builder: &Builder, column: Column) -> Option<Rational> {
         shared(builder, self.rows.iter().map(|row| row[column as usize]))
     }
 
-    /// Number that all links but the root have in a column, if it is one.
+    /// Returns the number that all links except the root have in a column, if they share one.
     pub(super) fn common_of_children(&self, builder: &Builder, column: Column) -> Option<Rational> {
         shared(
             builder,
@@ -56,7 +56,7 @@ impl Table {
     }
 }
 
-/// The number that all values are.
+/// Returns the number that all values equal, if there is one.
 fn shared(builder: &Builder, mut values: impl Iterator<Item = ValueId>) -> Option<Rational> {
     let number = builder.exact(values.next()?)?;
     values
@@ -65,8 +65,8 @@ fn shared(builder: &Builder, mut values: impl Iterator<Item = ValueId>) -> Optio
 }
 
 impl Lowering<'_> {
-    /// The constants of all orbits of a tree in loops. All are constants of the model,
-    /// whatever pass is left out.
+    /// Computes the constants of all orbits of a tree in loops. All become constants of the model,
+    /// whichever pass is left out.
     pub(super) fn strip_table(&mut self, scene: &Scene, balance: &LinkBalance) -> Table {
         let off = self.builder.off.take();
         let table = self.orbit_constants(scene, balance);
@@ -80,11 +80,11 @@ impl Lowering<'_> {
         let copies = self.builder.integer(super::copies(scene));
         let (mut given, mut masses) = (Vec::new(), Vec::new());
         let mut has_several_places = false;
-        // Parents come before their children, and orbits with their first link.
+        // Parents come before their children, and orbits are in the order of their first link.
         for orbit in &scene.orbits {
             let LinkId(index) = orbit.links[0];
             let link = &scene.links[index];
-            let places = self.places_below(scene, &children, index, copies);
+            let places = self.points_below(scene, &children, index, copies);
             has_several_places |= places.len() > 1;
             let [inertia, along, across, mass] = self.composite(scene, index, balance, &places);
             given.push(Joint {
@@ -129,25 +129,26 @@ impl Lowering<'_> {
         }
     }
 
-    /// Springs and friction of a link.
+    /// Returns spring and friction of a link as values.
     fn passive_values(&mut self, link: &Link) -> PassiveTorques<ValueId> {
-        // Widths of laws that a link does not have are numbers, no constants.
+        // The width of a law that a link does not have is a number, not a constant.
         link.passive.map(|quantity| match quantity.exact() {
             Some(number) if number.is_one() => self.builder.integer(1),
             _ => self.value_of(quantity),
         })
     }
 
-    /// The places where links hang on this one, with the masses that count there.
-    fn places_below(
+    /// Returns the points from which links hang on this one, with the masses at them that its
+    /// constants include.
+    fn points_below(
         &mut self,
         scene: &Scene,
         children: &[Vec<usize>],
         index: usize,
         copies: ValueId,
     ) -> Vec<([ValueId; 2], ValueId)> {
-        // Leaves alone count in the constants of what they hang from: the masses of
-        // whole subtrees would hide articulated inertias that are much smaller.
+        // A link's constants include the masses of leaves only: those of whole subtrees would hide
+        // much smaller articulated inertias.
         let mut places: Vec<([ValueId; 2], ValueId)> = Vec::new();
         for &child in &children[index] {
             let child_link = &scene.links[child];
@@ -165,7 +166,7 @@ impl Lowering<'_> {
         places
     }
 
-    /// M, h, the lateral moment and S of a link with these masses on its pivots: the
+    /// Computes M, h, the lateral moment and S of a link with the given masses on its pivots; the
     /// derived expressions are sums over these.
     pub(super) fn composite(
         &mut self,
@@ -208,7 +209,7 @@ impl Lowering<'_> {
         sums
     }
 
-    /// An expression at given values of its symbols.
+    /// Evaluates an expression at given values of its symbols.
     pub(super) fn at_values(&mut self, expr: &Expr, known: &[(SymbolId, ValueId)]) -> ValueId {
         match expr {
             Expr::Number(number) => self.builder.number(number.clone()),
@@ -238,7 +239,7 @@ impl Lowering<'_> {
         }
     }
 
-    /// The strips of a scene, with the columns that are read.
+    /// Returns the strips of a scene, with the columns that are read.
     pub(super) fn strips(
         &mut self,
         scene: &Scene,
@@ -281,13 +282,13 @@ impl Lowering<'_> {
             has_several_places: table.has_several_places,
             has_joint_torques: any(|link| link.passive.has_joint_torque()),
             has_outside_torques: super::has_outside_torques(scene),
-            has_held_links: !scene.prescribed.is_empty(),
+            has_prescribed_links: super::has_prescribed_links(scene),
             has_drive_torque: drive.is_some_and(|drive| drive.torque.is_some()),
         }
     }
 }
 
-/// The columns of one orbit.
+/// Computes the columns of one orbit.
 fn row(
     builder: &mut Builder,
     units: &Units,
@@ -338,12 +339,33 @@ fn row(
         Column::DragWidth => ground.width,
         Column::PerTorque => per_torque,
         Column::TorqueUnit => torque,
-        _ => zero,
+        // The drive's torque is an argument of each evaluation.
+        Column::DriveTorque => zero,
+        // Zero until `body_columns` fills them, for scenes with energies or positions.
+        Column::BodyMass
+        | Column::BodyInertia
+        | Column::ComAlong
+        | Column::ComAcross
+        | Column::PlaceAlong
+        | Column::PlaceAcross
+        | Column::PivotAlong
+        | Column::PivotAcross
+        | Column::CarriedMoment
+        | Column::LateralCarriedMoment
+        | Column::WeightMoment
+        | Column::LateralWeightMoment
+        | Column::Gravity
+        | Column::Stiffness
+        | Column::PivotFriction
+        | Column::GroundDrag
+        | Column::PivotCoulomb
+        | Column::PivotQuadratic
+        | Column::GroundQuadratic => zero,
     })
 }
 
-/// The constants of springs and friction that are proportional to the torque: of springs, of
-/// viscous friction and of other laws.
+/// Returns the constants of springs and friction that are proportional to the torque: of springs,
+/// of viscous friction and of other friction laws.
 fn torques(passive: &PassiveTorques<ValueId>) -> [ValueId; 6] {
     let [joint, ground] = &passive.laws;
     [

@@ -7,9 +7,10 @@ use crate::program::lower::{Environment, Lowering};
 use crate::scene::{LinkId, Scene};
 
 impl Lowering<'_> {
-    /// Q of each link, in its unit of torque: what the caller hands over, −c (ω − ω_π),
-    /// other friction and −κ (θ − θ_π − ρ) of its own joint less those of the joints on it, the
-    /// same between it and links that it does not hang from, −k ω, and τ on the root.
+    /// Computes the torque Q of each link, in its unit of torque. Q contains external torques, −c
+    /// (ω − ω_π), other friction and −κ (θ − θ_π − ρ) of the link's own joint minus those of its
+    /// children's joints, the corresponding terms between the link and others that are not its
+    /// parent, −k ω, and τ on the root. π denotes the parent.
     pub(super) fn joint_torques(
         &mut self,
         scene: &Scene,
@@ -31,7 +32,7 @@ impl Lowering<'_> {
         torques
     }
 
-    /// Adds what the caller hands over, and τ on the root.
+    /// Adds external torques, and τ on the root.
     fn outside_torques(
         &mut self,
         scene: &Scene,
@@ -54,7 +55,7 @@ impl Lowering<'_> {
         }
     }
 
-    /// Adds friction of links that is not viscous.
+    /// Adds the torques of friction that is not viscous.
     fn friction_torques(
         &mut self,
         scene: &Scene,
@@ -78,8 +79,8 @@ impl Lowering<'_> {
         }
     }
 
-    /// Adds −c (ω − ω_π) and −κ (θ − θ_π − ρ) of each joint to its link, and the opposite to the
-    /// link above; and −k ω.
+    /// Adds −c (ω − ω_π) and −κ (θ − θ_π − ρ) of each joint to its link, and the opposite to its
+    /// parent π; and −k ω.
     fn linear_torques(
         &mut self,
         scene: &Scene,
@@ -91,7 +92,7 @@ impl Lowering<'_> {
         let children = super::children(scene);
         let below = |parent: Option<usize>| parent.map_or(&[0][..], |parent| &children[parent]);
         for parent in std::iter::once(None).chain((0..scene.links.len()).map(Some)) {
-            // Sums of the motions of equal joints on one parent.
+            // Sums of the relative motions of equal joints on one parent.
             let mut sums: Vec<(&str, ValueId, ValueId)> = Vec::new();
             for &link in below(parent) {
                 let unit = &units.links[scene.links[link].orbit.0];
@@ -137,7 +138,8 @@ impl Lowering<'_> {
         }
     }
 
-    /// Adds −(dU/dℓ + γ ℓ̇) ∂ℓ/∂θ_i of each line.
+    /// Adds −(dU/dℓ + γ ℓ̇) ∂ℓ/∂θ_i of each line, with its length ℓ, energy U and damping
+    /// coefficient γ.
     fn line_torques(
         &mut self,
         scene: &Scene,
@@ -153,8 +155,8 @@ impl Lowering<'_> {
         }
     }
 
-    /// Adds −κ (θ_a − θ_b − ρ) − c (ω_a − ω_b) to the first link of each pair, and its opposite to
-    /// the second one.
+    /// Adds −κ (θ_a − θ_b − ρ) − c (ω_a − ω_b) to the first link of each pair, and the opposite to
+    /// the second.
     fn pair_torques(
         &mut self,
         scene: &Scene,

@@ -1,62 +1,62 @@
-//! The recursion through a tree that is written out, link by link.
+//! Articulated recursion through a tree that is written out, link by link.
 
 use super::equations::{Attached, Elimination, ReducedLink, Response};
-use super::held::HeldLink;
 use super::numbered;
+use super::prescribed::PrescribedLink;
 use super::reduced_units::Units;
 use crate::mechanics::Trigonometric;
 use crate::program::ValueId;
 use crate::program::builder::Builder;
-use crate::program::choice::{Held, Moved};
+use crate::program::choice::{PrescribedAccelerations, PrescribedSolution};
 use crate::program::lower::{Environment, Lowering};
 use crate::program::pair::Pair;
 use crate::scene::Scene;
 
-/// The recursion in progress.
+/// State of the recursion.
 struct LinkRecursion<'s> {
     scene: &'s Scene,
     units: Units,
     children: Vec<Vec<usize>>,
     links: Vec<ReducedLink>,
-    /// Of the subtrees that are eliminated and not yet attached.
+    /// Responses of the subtrees that are eliminated but not yet attached to their parent.
     responses: Vec<Option<Response>>,
-    /// Accelerations that are given.
-    held: &'s Held,
+    /// Prescribed accelerations.
+    prescribed: &'s PrescribedAccelerations,
 }
 
-/// A link for the way down.
+/// A link, prepared for the downward pass.
 struct SolvedLink {
     way: Descent,
-    /// The pivots on the link and what hangs from each.
+    /// Pivots on the link, each with the links that hang from it.
     groups: Vec<(Pair, Vec<usize>)>,
 }
 
-/// Knowledge of a link's acceleration on the way down.
+/// A link's acceleration in the downward pass.
 enum Descent {
-    /// The factors of it.
+    /// Computed from these factors.
     Free(Elimination),
-    /// Itself.
-    Held(HeldLink),
+    /// Prescribed.
+    Prescribed(PrescribedLink),
 }
 
 impl Lowering<'_> {
-    /// θ̈ in the absolute angles.
+    /// Computes the accelerations θ̈ in absolute angles.
     pub(in crate::program) fn recursion(
         &mut self,
         scene: &Scene,
         environment: &mut Environment<'_>,
     ) -> Vec<ValueId> {
-        self.recursion_around(scene, environment, &Held::new())
+        self.recursion_around(scene, environment, &PrescribedAccelerations::new())
             .accelerations
     }
 
-    /// The recursion around links whose acceleration is given.
+    /// Computes the accelerations if the accelerations of some links are prescribed.
     pub(in crate::program) fn recursion_around(
         &mut self,
         scene: &Scene,
         environment: &mut Environment<'_>,
-        held: &Held,
-    ) -> Moved {
+        prescribed: &PrescribedAccelerations,
+    ) -> PrescribedSolution {
         let frame = environment.frame;
         let units = self.units(scene, environment);
         let mut directions = Vec::new();
@@ -78,7 +78,7 @@ impl Lowering<'_> {
             ReducedLink {
                 moment: unit.moment,
                 inertia: unit.inertia,
-                // All mass is in the constants of the parents.
+                // The parents' constants include all mass.
                 mass: zero,
                 length: unit.length,
                 inverse_length: unit.inverse_length,
@@ -95,7 +95,7 @@ impl Lowering<'_> {
             children: super::children(scene),
             links,
             responses: vec![None; scene.links.len()],
-            held,
+            prescribed,
         };
         let builder = &mut self.builder;
         let mut solved: Vec<SolvedLink> = Vec::with_capacity(scene.links.len());
@@ -106,7 +106,7 @@ impl Lowering<'_> {
         sweep.descend(builder, &solved, root)
     }
 
-    /// The apparent gravity at the root's pivot, −a, in units of length.
+    /// Returns the apparent gravity at the root's pivot, −a, in units of length.
     fn root_gravity(&mut self, units: &Units, environment: &mut Environment<'_>) -> Pair {
         let mechanics = self.mechanics;
         let mut pivot = self.builder.zero_pair();
@@ -121,7 +121,7 @@ impl Lowering<'_> {
 }
 
 impl LinkRecursion<'_> {
-    /// Subtrees below a link, by pivot: place, members, their responses added up.
+    /// Groups the subtrees below a link by pivot: position, members, and sum of their responses.
     fn groups(&mut self, builder: &mut Builder, link: usize) -> Vec<(Pair, Vec<usize>, Response)> {
         let mut groups: Vec<(Pair, Vec<usize>, Response)> = Vec::new();
         for &child in &self.children[link] {
@@ -146,7 +146,7 @@ impl LinkRecursion<'_> {
         groups
     }
 
-    /// The way up, at one link.
+    /// Upward pass at one link.
     fn eliminate(&mut self, builder: &mut Builder, index: usize, root: Pair) -> SolvedLink {
         let groups = self.groups(builder, index);
         let link = &self.links[index];
@@ -162,11 +162,11 @@ impl LinkRecursion<'_> {
                 None => attached,
             });
         }
-        let (response, way) = match (self.held.get(&index), &whole) {
+        let (response, way) = match (self.prescribed.get(&index), &whole) {
             (Some(&alpha), _) => {
                 let whole = whole.unwrap_or_else(|| link.alone(builder));
-                let (response, held) = link.hold(builder, &whole, alpha);
-                (Some(response), Descent::Held(held))
+                let (response, prescribed) = link.prescribe(builder, &whole, alpha);
+                (Some(response), Descent::Prescribed(prescribed))
             }
             (None, None) => self.leaf(builder, index),
             (None, Some(whole)) if is_root => {
@@ -198,9 +198,14 @@ impl LinkRecursion<'_> {
         (Some(response), Descent::Free(elimination))
     }
 
-    /// From the root to the leaves, (10.8): ω̇ of each link and the apparent gravity at
-    /// the pivots on it.
-    fn descend(&self, builder: &mut Builder, solved: &[SolvedLink], root: Pair) -> Moved {
+    /// Downward pass from the root to the leaves, (10.8): ω̇ of each link and the apparent gravity
+    /// at the pivots on it.
+    fn descend(
+        &self,
+        builder: &mut Builder,
+        solved: &[SolvedLink],
+        root: Pair,
+    ) -> PrescribedSolution {
         let mut gravity = vec![root; solved.len()];
         let mut accelerations = Vec::with_capacity(solved.len());
         let mut reactions = Vec::new();
@@ -208,14 +213,14 @@ impl LinkRecursion<'_> {
             let link = &self.links[index];
             let [tangential, alpha] = match &solved.way {
                 Descent::Free(elimination) => link.accelerate(builder, elimination, gravity[index]),
-                Descent::Held(held) => {
-                    let reduced = held.reaction(builder, gravity[index]);
+                Descent::Prescribed(prescribed) => {
+                    let reduced = prescribed.reaction(builder, gravity[index]);
                     let unit = &self.units.links[self.scene.links[index].orbit.0];
                     let one = builder.integer(1);
                     let torque = builder.div(one, unit.per_torque);
                     let reaction = builder.mul(torque, reduced);
                     reactions.push(builder.name(reaction, &format!("reaction{}", link.suffix)));
-                    held.acceleration
+                    prescribed.acceleration
                 }
             };
             accelerations.push(alpha);
@@ -228,14 +233,14 @@ impl LinkRecursion<'_> {
                 }
             }
         }
-        Moved {
+        PrescribedSolution {
             accelerations,
             reactions,
         }
     }
 }
 
-/// The root's pivot is accelerated as given: nothing of the root is eliminated.
+/// Solves for the root. Its pivot has a given acceleration, so that nothing needs to be passed on.
 fn solve_root(
     builder: &mut Builder,
     link: &ReducedLink,

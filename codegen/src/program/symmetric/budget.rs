@@ -1,6 +1,6 @@
-//! Energies of the sectors and what feeds them (physics §5): dE_s/dt =
-//! W_s + P_s, the transfer from other sectors and the power of friction and
-//! drive.
+//! Energies of the sectors (sets of symmetric coordinates: all means, or one difference between
+//! copies) and their rates (physics §5): dE_s/dt = W_s + P_s. W_s is the transfer from other
+//! sectors, P_s the power of friction and drive.
 
 use super::field::SymmetricTree;
 use super::motion::{ConstantValues, Fields, Pose};
@@ -11,33 +11,34 @@ use std::collections::BTreeMap;
 /// A state of motion, with the momenta and forces that belong to it.
 pub(in crate::program) struct SymmetricMotion {
     pub(in crate::program) pose: Pose,
-    /// Angular velocities.
+    /// Angular velocities in symmetric form: means and differences.
     pub(in crate::program) rates: Fields,
-    /// Generalized momenta M ω.
+    /// Generalized momenta M ω in symmetric form.
     pub(in crate::program) momenta: Fields,
     /// Generalized forces of friction, drag and drive.
     pub(in crate::program) forces: Fields,
 }
 
-/// E_s, W_s and P_s of one sector.
+/// Energy E_s, transfer W_s and power P_s of one sector.
 pub(in crate::program) struct Share {
     pub(in crate::program) energy: TruncatedSeries,
     pub(in crate::program) transfer: TruncatedSeries,
     pub(in crate::program) power: TruncatedSeries,
 }
 
-/// W_s in the parts of kinetic and potential energy: {E_s, K − T_s} and
-/// {E_s, U − V_s}.
+/// Transfer W_s, split into the parts of kinetic and potential energy: {E_s, K − T_s} and {E_s, U −
+/// V_s}.
 pub(in crate::program) struct TransferSeries {
-    /// −∂T_s/∂p ∂K/∂q.
+    /// Term −∂T_s/∂p ∂K/∂q of the kinetic part.
     pub(in crate::program) slopes: TruncatedSeries,
-    /// The rest of {E_s, K − T_s}.
+    /// Remaining terms of {E_s, K − T_s}.
     pub(in crate::program) kinetic: TruncatedSeries,
     pub(in crate::program) potential: TruncatedSeries,
 }
 
 impl SymmetricTree<'_> {
-    /// Velocities of the sector by itself: B u = p.
+    /// Computes the sector's own velocities u from its momenta p and its block B of the mass
+    /// matrix: B u = p.
     fn own_velocities(
         &mut self,
         values: &ConstantValues,
@@ -54,7 +55,7 @@ impl SymmetricTree<'_> {
         self.solve_block(&block, &momenta, sector)
     }
 
-    /// −½ uᵀ Ḃ u: what the change of the sector's block does to ½ pᵀ B⁻¹ p.
+    /// Computes −½ uᵀ Ḃ u, the rate of ½ pᵀ B⁻¹ p caused by the change of the sector's block B.
     fn by_change_of_block(
         &mut self,
         motion: &SymmetricMotion,
@@ -68,8 +69,8 @@ impl SymmetricTree<'_> {
         self.series.neg(&change)
     }
 
-    /// ½ p_sᵀ B_s⁻¹ p_s + V_s with the block at the configuration (definition
-    /// A1) or at rest (A0).
+    /// Computes energy, transfer and power of a sector for the energy ½ p_sᵀ B_s⁻¹ p_s + V_s, with
+    /// the block B_s at the current angles (definition A1) or at rest (A0).
     pub(in crate::program) fn canonical_share(
         &mut self,
         values: &ConstantValues,
@@ -101,8 +102,8 @@ impl SymmetricTree<'_> {
         }
     }
 
-    /// The transfer of [`canonical_share`](Self::canonical_share) by definition
-    /// A1, in the parts of kinetic and potential energy.
+    /// Computes the transfer of [`canonical_share`](Self::canonical_share) for definition A1, split
+    /// into the parts of kinetic and potential energy.
     pub(in crate::program) fn transfer_parts(
         &mut self,
         values: &ConstantValues,
@@ -119,7 +120,7 @@ impl SymmetricTree<'_> {
         let own = self.sector_weight_gradient(values, &motion.pose, sector);
         let swing = self.inner(&velocities, &own);
         kinetic = self.series.sub(&kinetic, &swing);
-        // Springs are quadratic: U and V_s have the same slope in the sector.
+        // Springs have quadratic energy: U and V_s have the same slope in the sector.
         let springs = self.spring_gradient(values, &motion.pose);
         let projected = self.projections(&springs, sector);
         let rates = self.components(&motion.rates, sector);
@@ -138,8 +139,8 @@ impl SymmetricTree<'_> {
         }
     }
 
-    /// ½ ω_sᵀ B_s ω_s + V_s (definition C), with the accelerations that the
-    /// conservative forces and the others give.
+    /// Computes energy, transfer and power of a sector for the energy ½ ω_sᵀ B_s ω_s + V_s
+    /// (definition C), from the accelerations caused by the conservative and by the other forces.
     pub(in crate::program) fn velocity_share(
         &mut self,
         values: &ConstantValues,
@@ -168,8 +169,8 @@ impl SymmetricTree<'_> {
         }
     }
 
-    /// Accelerations that the conservative forces give, and what the others
-    /// add to them.
+    /// Computes the accelerations caused by the conservative forces, and those that the other
+    /// forces add.
     pub(in crate::program) fn accelerations(
         &mut self,
         values: &ConstantValues,
@@ -196,7 +197,7 @@ impl SymmetricTree<'_> {
         [conservative, other]
     }
 
-    /// K = ½ p·ω.
+    /// Computes the kinetic energy K = ½ p·ω.
     pub(in crate::program) fn kinetic_energy(
         &mut self,
         motion: &SymmetricMotion,
@@ -210,7 +211,7 @@ impl SymmetricTree<'_> {
         self.series.mul(&half, &twice)
     }
 
-    /// H = K + U.
+    /// Computes the Hamiltonian H = K + U.
     pub(in crate::program) fn hamiltonian(
         &mut self,
         values: &ConstantValues,
@@ -220,7 +221,7 @@ impl SymmetricTree<'_> {
         self.with_potential(kinetic, values, &motion.pose)
     }
 
-    /// U.
+    /// Computes the potential energy U.
     pub(in crate::program) fn potential_energy(
         &mut self,
         values: &ConstantValues,

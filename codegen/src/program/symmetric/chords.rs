@@ -1,5 +1,5 @@
-//! Straight springs between copies (physics (19.10)): Γ beside G in the sectors of the copies'
-//! differences.
+//! Straight springs between copies (physics (19.10)): their constant Γ adds to gravity's G in the
+//! sectors of the copies' differences.
 
 use super::field::{SymmetricField, SymmetricTree};
 use super::motion::{ConstantValues, Fields, Pose};
@@ -7,8 +7,8 @@ use super::series::TruncatedSeries;
 use super::tree::SectorId;
 
 impl SymmetricTree<'_> {
-    /// G of an orbit in a sector, and Γ where it is one of differences of copies that straight
-    /// springs are between.
+    /// Returns gravity's constant G of an orbit (set of equal copies of one link) in a sector, plus
+    /// Γ if straight springs connect the copies of that sector.
     pub(super) fn gravity_of(
         &mut self,
         values: &ConstantValues,
@@ -24,8 +24,8 @@ impl SymmetricTree<'_> {
         }
     }
 
-    /// Adds ∂U/∂θ of the links, Γ (\[sin θ\] cos θ − \[cos θ\] sin θ) with the parts in the
-    /// differences of the copies.
+    /// Adds the derivatives ∂U/∂θ by the angles of the links, Γ (\[sin θ\] cos θ − \[cos θ\] sin
+    /// θ). Brackets denote the part in the differences of the copies.
     pub(super) fn add_chords(
         &mut self,
         gradient: &mut Fields,
@@ -47,7 +47,7 @@ impl SymmetricTree<'_> {
 }
 
 impl SymmetricField {
-    /// The part in the differences of a group.
+    /// Returns the part of the field in the differences of a group.
     fn within(&self, group: usize) -> Self {
         let mut part = Self::zero(self.orbit);
         let own = self

@@ -1,4 +1,4 @@
-//! Cosine and sine of an angle that every link of an orbit has.
+//! Cosine and sine of the angles of the links of an orbit (set of equal copies of one link).
 
 use super::field::{SymmetricField, SymmetricTree};
 use super::series::TruncatedSeries;
@@ -7,13 +7,13 @@ use crate::exact::Rational;
 use crate::program::{Op, ValueId};
 use std::collections::BTreeMap;
 
-/// A rotation as 1 − cos and sin of its angle.
+/// A rotation: versine (1 − cos) and sine of its angle.
 struct SeriesRotation {
     versine: TruncatedSeries,
     sine: TruncatedSeries,
 }
 
-/// cos and sin of the angle of every link.
+/// Cosine and sine of the angle of every link of an orbit.
 #[derive(Clone)]
 pub(in crate::program) struct Direction {
     pub(in crate::program) cos: SymmetricField,
@@ -21,8 +21,8 @@ pub(in crate::program) struct Direction {
 }
 
 impl SymmetricTree<'_> {
-    /// e^{iθ}: the mean angle's, turned by what each copy has beyond it, with
-    /// 1 − cos of the differences by half angles.
+    /// Computes e^{iθ} for every link: e^{iθ} of the mean angle, rotated by each copy's deviation
+    /// from it. The versines (1 − cos) of the differences are computed by half angles.
     pub(in crate::program) fn direction(&mut self, angle: &SymmetricField) -> Direction {
         let orbit = angle.orbit;
         let Some(mean) = angle.mean.coefficient(0) else {
@@ -66,8 +66,8 @@ impl SymmetricTree<'_> {
         }
     }
 
-    /// Mean of e^{i(θ − mean)} − 1 within a branching, real and imaginary
-    /// part; the differences of it go to the two fields.
+    /// Returns the mean of e^{i(θ − mean)} − 1 within a branching, real and imaginary part; adds
+    /// its differences to the two fields.
     fn turned(
         &mut self,
         branch: Option<&Branch>,
@@ -91,7 +91,7 @@ impl SymmetricTree<'_> {
                 [id] => orbit.name(Some(*id)).to_owned(),
                 _ => format!("{}_copy_{}", orbit.name(None), copy + 1),
             };
-            let turn = self.turn(&offset, &label);
+            let turn = self.rotation(&offset, &label);
             let mut inside = [
                 SymmetricField::zero(angle.orbit),
                 SymmetricField::zero(angle.orbit),
@@ -129,7 +129,7 @@ impl SymmetricTree<'_> {
         [self.average(&reals), self.average(&imaginaries)]
     }
 
-    /// (1 − vers + i sin)(x + iy)
+    /// Computes (1 − vers + i sin)(x + iy).
     fn rotated(
         &mut self,
         turn: &SeriesRotation,
@@ -150,7 +150,7 @@ impl SymmetricTree<'_> {
         ]
     }
 
-    fn turn(&mut self, angle: &TruncatedSeries, label: &str) -> SeriesRotation {
+    fn rotation(&mut self, angle: &TruncatedSeries, label: &str) -> SeriesRotation {
         if angle.is_zero() {
             return SeriesRotation {
                 versine: TruncatedSeries::default(),
@@ -167,7 +167,7 @@ impl SymmetricTree<'_> {
             return small;
         }
         let whole = self.turn_by_half_angle(&leading, label);
-        // 1 − vers + i sin of the sum, less 1.
+        // 1 − vers + i sin of the sum, minus 1.
         let less = self.series.neg(&small.versine);
         let [real, imaginary] = self.rotated(&whole, &[less, small.sine]);
         SeriesRotation {
@@ -176,8 +176,8 @@ impl SymmetricTree<'_> {
         }
     }
 
-    /// With s, c of half the angle: sin = 2 s c, vers = 2 s². Opposite angles
-    /// share them.
+    /// Computes the rotation from sine s and cosine c of half the angle: sin = 2 s c, vers = 2 s².
+    /// Opposite angles share the values.
     fn turn_by_half_angle(&mut self, angle: &TruncatedSeries, label: &str) -> SeriesRotation {
         let builder = &mut *self.series.builder;
         let Some(angle) = angle.coefficient(0) else {
@@ -206,7 +206,7 @@ impl SymmetricTree<'_> {
         }
     }
 
-    /// Taylor polynomials as far as the orders kept.
+    /// Computes the rotation by Taylor polynomials, up to the highest order that is kept.
     fn turn_by_powers(&mut self, angle: &TruncatedSeries, order: usize) -> SeriesRotation {
         let mut versine = TruncatedSeries::default();
         let mut sine = TruncatedSeries::default();

@@ -1,17 +1,16 @@
-//! Arithmetic on quantities that every link of an orbit has, held as their
+//! Arithmetic on quantities of all links of an orbit (set of equal copies of one link), stored as
 //! mean and Helmert differences (physics §3) instead of copy by copy.
 //!
-//! This is worth its operations: a difference that is exactly zero stays so,
-//! and a small one keeps its own relative accuracy, which subtracting copies
-//! would destroy. On a nested tree the basis is Haar's, with products that
-//! couple each branching to those below it.
+//! This justifies its operations: a difference that is exactly zero remains so, and a small one
+//! keeps its relative accuracy, which subtracting copies would destroy. For nested copies the basis
+//! is Haar's, whose products couple each branching to those below it.
 
 use super::series::{SeriesArithmetic, TruncatedSeries};
 use super::tree::{Branch, DifferenceId, OrbitLinks, structure, weight};
 use crate::exact::Rational;
 use std::collections::BTreeMap;
 
-/// One quantity of every link of an orbit: link = mean + Σ weight · difference.
+/// A quantity of every link of an orbit: link = mean + Σ weight · difference.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(in crate::program) struct SymmetricField {
     pub(super) orbit: usize,
@@ -25,7 +24,7 @@ impl SymmetricField {
         Self::uniform(orbit, TruncatedSeries::default())
     }
 
-    /// A field of one value in every link.
+    /// Creates a field with the same value in every link.
     pub(super) fn uniform(orbit: usize, mean: TruncatedSeries) -> Self {
         Self {
             orbit,
@@ -50,7 +49,7 @@ impl SymmetricField {
         }
     }
 
-    /// Returns true if links within one copy of this branching differ.
+    /// Returns true if links within one copy of this branching have different values.
     pub(super) fn varies_below(&self, branch: Option<&Branch>) -> bool {
         branch.is_some_and(|branch| {
             (1..=branch.differences())
@@ -63,8 +62,7 @@ impl SymmetricField {
     }
 }
 
-/// A tree in means and differences: its orbits, and the arithmetic on their
-/// fields.
+/// A tree in means and differences: its orbits, and the arithmetic on their fields.
 pub(in crate::program) struct SymmetricTree<'b> {
     pub(in crate::program) series: SeriesArithmetic<'b>,
     pub(in crate::program) orbits: &'b [OrbitLinks],
@@ -112,7 +110,7 @@ impl<'b> SymmetricTree<'b> {
         self.sub(&SymmetricField::zero(f.orbit), f)
     }
 
-    /// A factor that is the same in every link.
+    /// Multiplies a field by a factor that is the same in every link.
     pub(super) fn scale(&mut self, factor: &TruncatedSeries, f: &SymmetricField) -> SymmetricField {
         let mean = self.series.mul(factor, &f.mean);
         let mut result = SymmetricField::uniform(f.orbit, mean);
@@ -126,12 +124,12 @@ impl<'b> SymmetricTree<'b> {
         result
     }
 
-    /// A parent's quantity as one of the links below it.
+    /// Returns a field of the parent links as a field of their child links in `orbit`.
     pub(super) fn lift(&self, f: &SymmetricField, orbit: usize) -> SymmetricField {
         SymmetricField { orbit, ..f.clone() }
     }
 
-    /// The sum over the links of an orbit below each link of `ancestor`.
+    /// Returns, for each link of `ancestor`, the sum over the links of the field's orbit below it.
     pub(super) fn gather(&mut self, f: &SymmetricField, ancestor: usize) -> SymmetricField {
         let mut ids = Vec::new();
         let mut pending: Vec<&Branch> = self.branch(ancestor).into_iter().collect();
@@ -150,8 +148,8 @@ impl<'b> SymmetricTree<'b> {
         self.scale(&count, &kept)
     }
 
-    /// Σ over all links of the product of two fields, by Parseval one term for
-    /// each coordinate.
+    /// Returns the sum over all links of the product of two fields; by Parseval's identity it has
+    /// one term per coordinate.
     pub(super) fn dot(&mut self, f: &SymmetricField, g: &SymmetricField) -> TruncatedSeries {
         let parts = self.dot_by_sector(f, g);
         let mut sum = TruncatedSeries::default();
@@ -161,7 +159,8 @@ impl<'b> SymmetricTree<'b> {
         sum
     }
 
-    /// The terms of that sum; the mean's stands under `None`.
+    /// Returns the terms of the sum [`dot`](Self::dot) by difference; the key of the mean is
+    /// `None`.
     pub(super) fn dot_by_sector(
         &mut self,
         f: &SymmetricField,
@@ -183,7 +182,7 @@ impl<'b> SymmetricTree<'b> {
         parts
     }
 
-    /// Σ of the squared weights of a difference.
+    /// Returns the sum of the squared weights of a difference.
     pub(super) fn norm(&self, orbit: usize, id: DifferenceId) -> i64 {
         let mut pending: Vec<&Branch> = self.branch(orbit).into_iter().collect();
         while let Some(branch) = pending.pop() {
@@ -195,7 +194,7 @@ impl<'b> SymmetricTree<'b> {
         unreachable!("a difference of another orbit")
     }
 
-    /// The mean in each copy of a branching whose mean is given.
+    /// Returns the mean within each copy of a branching, given the mean of the whole branching.
     pub(super) fn means(
         &mut self,
         branch: &Branch,
@@ -210,7 +209,7 @@ impl<'b> SymmetricTree<'b> {
             .collect()
     }
 
-    /// Deviation of a copy from the mean of all copies.
+    /// Returns the deviation of a copy from the mean of all copies.
     pub(super) fn offset(
         &mut self,
         branch: &Branch,
@@ -232,8 +231,8 @@ impl<'b> SymmetricTree<'b> {
         sum
     }
 
-    /// Helmert differences of one value for each copy, written as sums of
-    /// differences so that equal copies give exactly zero.
+    /// Returns the Helmert differences of one value per copy, computed as sums of differences, so
+    /// that equal copies give exactly zero.
     pub(super) fn differences(&mut self, values: &[TruncatedSeries]) -> Vec<TruncatedSeries> {
         (1..values.len())
             .map(|index| {
@@ -261,7 +260,7 @@ impl<'b> SymmetricTree<'b> {
             .scale(&share.unwrap_or_else(Rational::one), &sum)
     }
 
-    /// Product, link by link.
+    /// Returns the product of two fields, link by link.
     pub(super) fn mul(&mut self, f: &SymmetricField, g: &SymmetricField) -> SymmetricField {
         debug_assert_eq!(f.orbit, g.orbit);
         let mut result = SymmetricField::zero(f.orbit);
@@ -275,8 +274,8 @@ impl<'b> SymmetricTree<'b> {
         result
     }
 
-    /// The mean of a product less the product of the means within a branching;
-    /// its differences go to `result`. Bilinear in small quantities throughout.
+    /// Returns the mean of a product minus the product of the means within a branching; adds its
+    /// differences to `result`. Every term is a product of two small quantities.
     fn excess(
         &mut self,
         branch: Option<&Branch>,

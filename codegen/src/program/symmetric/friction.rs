@@ -1,15 +1,15 @@
-//! Torques of friction that is not viscous, on means and differences.
+//! Torques of friction that is not viscous, computed on means and differences.
 //!
-//! Between copies they are nonlinear. With f = w² + ε² and y = 1/√f all else is products
-//! of fields, so that differences that are zero stay so, and small ones keep their digits.
+//! Between copies they are nonlinear. Given f = w² + ε² and y = 1/√f, everything else is products
+//! of fields, so that zero differences remain zero and small ones keep their digits.
 
 use super::field::{SymmetricField, SymmetricTree};
 use super::motion::{ConstantValues, Fields};
 use super::series::TruncatedSeries;
 use crate::exact::Rational;
-use crate::scene::{FrictionLaw, FrictionPlace};
+use crate::scene::{FrictionContact, FrictionLaw};
 
-/// A law with series as its constants; zeros are empty ones.
+/// A friction law whose constants are series; zero is an empty series.
 pub(in crate::program) type LawValues = FrictionLaw<TruncatedSeries>;
 
 impl LawValues {
@@ -19,16 +19,17 @@ impl LawValues {
 }
 
 impl SymmetricTree<'_> {
-    /// The rates that a law is about: of the joints of an orbit, or of its links.
+    /// Returns the rates on which a friction law acts: of the joints of an orbit (set of equal
+    /// copies of one link), or of its links.
     pub(in crate::program) fn braking_rate(
         &mut self,
         rates: &Fields,
         orbit: usize,
-        place: FrictionPlace,
+        place: FrictionContact,
     ) -> SymmetricField {
         match place {
-            FrictionPlace::Joint => self.relative(rates, orbit),
-            FrictionPlace::Ground => rates[orbit].clone(),
+            FrictionContact::Joint => self.relative(rates, orbit),
+            FrictionContact::Ground => rates[orbit].clone(),
         }
     }
 
@@ -42,7 +43,7 @@ impl SymmetricTree<'_> {
         for (orbit, constants) in values.orbits.iter().enumerate() {
             let [joint, ground] = &constants.passive.laws;
             if !joint.is_zero() {
-                let rate = self.braking_rate(rates, orbit, FrictionPlace::Joint);
+                let rate = self.braking_rate(rates, orbit, FrictionContact::Joint);
                 let torque = self.braking_torque(joint, &rate);
                 self.add_joint_torque(sums, &torque);
             }
@@ -53,7 +54,7 @@ impl SymmetricTree<'_> {
         }
     }
 
-    /// (C/s + q s) w = (C y + q f y) w.
+    /// Computes the torque (C/s + q s) w = (C y + q f y) w.
     pub(in crate::program) fn braking_torque(
         &mut self,
         law: &LawValues,
@@ -76,21 +77,21 @@ impl SymmetricTree<'_> {
         self.mul(&factor, rate)
     }
 
-    /// One over the root of a positive field, link by link.
+    /// Computes 1/√f of a positive field, link by link.
     fn inverse_root(&mut self, f: &SymmetricField) -> SymmetricField {
         let leading = self.leading(f);
         let mut result = self.by_copies(&leading, |series, value| series.inverse_root(value));
         if leading.varies_below(self.branch(f.orbit)) {
             result = self.refined_root(&leading, &result);
         }
-        // Each round gains one order at least.
+        // Each round corrects at least one further order.
         for _ in 0..self.series.truncation.unwrap_or(0) {
             result = self.refined_root(f, &result);
         }
         result
     }
 
-    /// One step of Newton's: y + y (1 − f y²)/2.
+    /// Computes one Newton step: y + y (1 − f y²)/2.
     fn refined_root(&mut self, f: &SymmetricField, estimate: &SymmetricField) -> SymmetricField {
         let one = self.series.integer(1);
         let one = SymmetricField::uniform(f.orbit, one);

@@ -1,12 +1,11 @@
-//! Programs for trees with identical subtrees, formed on means and differences
-//! of copies instead of on single links.
+//! Programs for trees with identical subtrees, computed on means and differences of copies instead
+//! of on single links.
 //!
-//! A quantity that every link of an orbit has is one
-//! [`SymmetricField`](field::SymmetricField): its mean and its Helmert differences. Sums,
-//! products, quotients, sine and cosine of fields are formed without ever
-//! subtracting copies, so what is exactly zero stays so and what is small keeps
-//! its digits; with values graded by powers of ε
-//! ([`SeriesArithmetic`](series::SeriesArithmetic)) the same formulas give the expansion about the
+//! A quantity of all links of an orbit (equal copies of one link) is one
+//! [`SymmetricField`](field::SymmetricField): its mean and its Helmert differences. Sums, products,
+//! quotients, sines and cosines of fields are computed without subtracting copies, so that zero
+//! differences remain zero and small ones keep their digits. With values graded by powers of ε
+//! ([`SeriesArithmetic`](series::SeriesArithmetic)), the same formulas give the expansion about the
 //! in-phase motion to any order.
 
 mod budget;

@@ -1,5 +1,5 @@
-//! The tree's motion by orbits: mass matrix, generalized forces and the solve,
-//! in fields instead of single links.
+//! Motion of the tree by orbits (sets of equal copies of one link): mass matrix, generalized forces
+//! and linear solves, in fields instead of single links.
 
 use super::direction::Direction;
 use super::field::{SymmetricField, SymmetricTree};
@@ -8,7 +8,7 @@ use super::spring_dampers::SpringDamperValues;
 use crate::mechanics::{OrbitChord, OrbitCoupling};
 use crate::scene::PassiveTorques;
 
-/// Values of the constants of one orbit; zeros are empty series.
+/// Constants of one orbit as values; zero is an empty series.
 pub(in crate::program) struct OrbitValues {
     pub(in crate::program) mass: TruncatedSeries,
     pub(in crate::program) inertia: TruncatedSeries,
@@ -21,7 +21,7 @@ pub(in crate::program) struct OrbitValues {
     pub(in crate::program) passive: PassiveTorques<TruncatedSeries>,
 }
 
-/// The constants of a scene.
+/// Constants of a scene as values.
 pub(in crate::program) struct ConstantValues {
     pub(in crate::program) orbits: Vec<OrbitValues>,
     pub(in crate::program) couplings: Vec<OrbitCoupling<TruncatedSeries>>,
@@ -29,11 +29,11 @@ pub(in crate::program) struct ConstantValues {
     pub(in crate::program) spring_dampers: Vec<SpringDamperValues>,
 }
 
-/// One field for each orbit: a vector with one component for each link.
+/// One field per orbit: a vector with one component per link.
 pub(in crate::program) type Fields = Vec<SymmetricField>;
 
-/// A coupling at a configuration: the entry of the mass matrix and its
-/// derivative in the angle of the descendant.
+/// A coupling at a configuration: the entry of the mass matrix and its derivative by the
+/// descendant's angle.
 pub(super) struct MassEntry {
     pub(in crate::program) row: usize,
     pub(in crate::program) column: usize,
@@ -41,7 +41,7 @@ pub(super) struct MassEntry {
     pub(super) slope: SymmetricField,
 }
 
-/// A configuration: what depends on the angles alone.
+/// A configuration: quantities that depend only on the angles.
 pub(in crate::program) struct Pose {
     pub(super) angles: Fields,
     pub(super) directions: Vec<Direction>,
@@ -49,7 +49,7 @@ pub(in crate::program) struct Pose {
 }
 
 impl SymmetricTree<'_> {
-    /// The configuration with these angles.
+    /// Computes the quantities of the configuration with the given angles.
     pub(in crate::program) fn pose(&mut self, values: &ConstantValues, angles: Fields) -> Pose {
         let directions: Vec<Direction> = angles
             .iter()
@@ -111,7 +111,7 @@ impl SymmetricTree<'_> {
         sums[orbit] = self.add(&sums[orbit], term);
     }
 
-    /// M v.
+    /// Computes the momenta M v.
     pub(in crate::program) fn momenta(
         &mut self,
         values: &ConstantValues,
@@ -135,7 +135,7 @@ impl SymmetricTree<'_> {
         momenta
     }
 
-    /// ∂U/∂θ of gravity and springs.
+    /// Computes the slopes ∂U/∂θ of gravity and springs.
     pub(in crate::program) fn potential_gradient(
         &mut self,
         values: &ConstantValues,
@@ -155,8 +155,8 @@ impl SymmetricTree<'_> {
         gradient
     }
 
-    /// Adds κ (θ − θ_parent − ρ) to each link, and its opposite to the parent; likewise between
-    /// other links.
+    /// Adds κ (θ − θ_parent − ρ) to each link and its opposite to the parent, and the corresponding
+    /// terms between other links.
     pub(super) fn add_springs(
         &mut self,
         sums: &mut Fields,
@@ -186,8 +186,7 @@ impl SymmetricTree<'_> {
         }
     }
 
-    /// Adds coefficient · relative to the links of its orbit, and the opposite to
-    /// their parents.
+    /// Adds coefficient · relative to the links of its orbit, and the opposite to their parents.
     pub(super) fn add_joint(
         &mut self,
         sums: &mut Fields,
@@ -208,8 +207,8 @@ impl SymmetricTree<'_> {
         }
     }
 
-    /// θ − θ_parent − ρ, by which the springs of an orbit are turned. Their rest angle
-    /// is one for all, and so in the mean alone.
+    /// Returns θ − θ_parent − ρ, the strain of the springs of an orbit. The rest angle is the same
+    /// for all links and therefore only part of the mean.
     pub(super) fn strain(
         &mut self,
         values: &ConstantValues,
@@ -225,7 +224,7 @@ impl SymmetricTree<'_> {
         self.sub(&relative, &rest)
     }
 
-    /// A link's own less its parent's.
+    /// Returns a link's value minus its parent's.
     pub(super) fn relative(&mut self, positions: &Fields, orbit: usize) -> SymmetricField {
         match self.orbits[orbit].parent {
             Some(parent) => {
@@ -236,7 +235,7 @@ impl SymmetricTree<'_> {
         }
     }
 
-    /// Generalized forces of friction and drag, Q = −∂R/∂ω, and of the drive.
+    /// Computes the generalized forces of friction and drag, Q = −∂R/∂ω, and of the drive.
     pub(in crate::program) fn other_forces(
         &mut self,
         values: &ConstantValues,
@@ -248,7 +247,7 @@ impl SymmetricTree<'_> {
         forces
     }
 
-    /// Generalized forces of friction and drag, Q = −∂R/∂ω.
+    /// Computes the generalized forces of friction and drag, Q = −∂R/∂ω.
     pub(in crate::program) fn friction_forces(
         &mut self,
         values: &ConstantValues,
@@ -285,7 +284,7 @@ impl SymmetricTree<'_> {
         }
     }
 
-    /// ∂K/∂θ at fixed velocities.
+    /// Computes ∂K/∂θ at fixed velocities.
     pub(in crate::program) fn kinetic_gradient(&mut self, pose: &Pose, rates: &Fields) -> Fields {
         let mut gradient = self.zeros();
         for entry in &pose.entries {
@@ -299,7 +298,7 @@ impl SymmetricTree<'_> {
         gradient
     }
 
-    /// Ṁ v.
+    /// Computes Ṁ v.
     pub(in crate::program) fn mass_changes(&mut self, pose: &Pose, rates: &Fields) -> Fields {
         let mut changes = self.zeros();
         for entry in &pose.entries {
@@ -318,7 +317,7 @@ impl SymmetricTree<'_> {
         changes
     }
 
-    /// ∂(aᵀ M b)/∂θ.
+    /// Computes the gradient ∂(aᵀ M b)/∂θ.
     pub(super) fn bilinear_gradient(&mut self, pose: &Pose, a: &Fields, b: &Fields) -> Fields {
         let mut gradient = self.zeros();
         for entry in &pose.entries {
@@ -334,8 +333,8 @@ impl SymmetricTree<'_> {
         gradient
     }
 
-    /// Adds slope · product to the descendants' torque and takes it from the
-    /// ancestors'.
+    /// Adds the derivative of the entry times `product` to the descendants' torque, and subtracts
+    /// it from the ancestors'.
     fn turn_both(&mut self, gradient: &mut Fields, entry: &MassEntry, product: &SymmetricField) {
         let own = self.mul(&entry.slope, product);
         let name = format!("turning_{}", self.orbits[entry.column].name(None));
@@ -346,9 +345,8 @@ impl SymmetricTree<'_> {
         self.accumulate(gradient, &above);
     }
 
-    /// Terms that stand against M θ̈ and come of the motion itself: for each
-    /// coupling m(Δ), m′ ω² of the other link, centrifugal and no Coriolis
-    /// terms.
+    /// Computes the centrifugal terms, which are on the same side of the equation as M θ̈: for each
+    /// coupling m(Δ), the term m′ ω² of the other link. There are no Coriolis terms.
     pub(super) fn centrifugal(&mut self, pose: &Pose, rates: &Fields) -> Fields {
         let squares: Fields = rates.iter().map(|rate| self.mul(rate, rate)).collect();
         self.all_hinted(&squares, "omega_squared");
@@ -366,7 +364,7 @@ impl SymmetricTree<'_> {
         forces
     }
 
-    /// Right-hand side of M θ̈ without friction and drive.
+    /// Computes the right side of M θ̈ = … without friction and drive.
     pub(super) fn conservative_forces(
         &mut self,
         values: &ConstantValues,

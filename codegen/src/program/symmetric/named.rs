@@ -1,5 +1,5 @@
-//! Names of the means and differences of fields in code, and fields from the
-//! values of single links.
+//! Names of the means and differences of fields in code, and conversion between fields and values
+//! of single links.
 
 use super::field::{SymmetricField, SymmetricTree};
 use super::motion::Fields;
@@ -7,8 +7,8 @@ use super::series::TruncatedSeries;
 use crate::program::ValueId;
 
 impl SymmetricTree<'_> {
-    /// Hints at what the mean and the differences of a field are, order by
-    /// order: `slope_child_m`, `slope_child_m_order_2`.
+    /// Suggests names for the mean and the differences of a field, order by order: `slope_child_m`,
+    /// `slope_child_m_order_2`.
     pub(super) fn hinted(&mut self, field: &SymmetricField, letter: &str) {
         let orbit = &self.orbits[field.orbit];
         let parts = field.differences.iter();
@@ -41,7 +41,8 @@ impl SymmetricTree<'_> {
         self.hinted(field, letter);
     }
 
-    /// The links' values of a field, in the order of the orbit's links.
+    /// Converts the links' values, in the order of the links of the orbit (set of equal copies of
+    /// one link), to a field.
     pub(in crate::program) fn analysed(
         &mut self,
         orbit: usize,
@@ -77,7 +78,7 @@ impl SymmetricTree<'_> {
             field.put((branch.group, index + 1), value);
         }
         let mean = self.average(&means);
-        // `theta_hand_1_m` beside `theta_hand_1_d`.
+        // `theta_hand_1_m`, in addition to `theta_hand_1_d`.
         let name = self.orbits[field.orbit].name(Some((branch.group, 1)));
         if let Some((place, _)) = name.rsplit_once("_d") {
             let name = format!("{letter}_{place}_m");

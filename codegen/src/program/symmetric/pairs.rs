@@ -1,7 +1,8 @@
-//! Springs and friction between links that are not parent and child, on means and differences.
+//! Springs and friction between links that are not parent and child, computed on means and
+//! differences.
 //!
-//! Each acts on the difference of two links' angles, a sum of symmetric coordinates with whole
-//! weights. So differences between copies that are zero stay so.
+//! Each depends on the difference of two links' angles, a sum of symmetric coordinates with integer
+//! weights. Zero differences between copies therefore remain zero.
 
 use super::field::{SymmetricField, SymmetricTree};
 use super::friction::LawValues;
@@ -10,15 +11,16 @@ use super::series::TruncatedSeries;
 use super::spring_dampers::{SpringDamperValues, WeightedSum};
 use super::tree::SectorId;
 use crate::exact::Rational;
-use crate::scene::FrictionPlace;
+use crate::scene::FrictionContact;
 
-/// Returns true if all coordinates of a sum are of one sector.
+/// Returns true if all coordinates of a sum belong to one sector (a set of symmetric coordinates:
+/// all means, or one difference between copies).
 fn is_of(sum: &WeightedSum, sector: SectorId) -> bool {
     sum.iter().all(|((_, own), _)| *own == sector)
 }
 
 impl SymmetricTree<'_> {
-    /// The sum at these angles or rates.
+    /// Returns the value of the sum for the given angles or rates.
     fn weighted_sum(&mut self, fields: &Fields, sum: &WeightedSum) -> TruncatedSeries {
         let mut total = TruncatedSeries::default();
         for &((orbit, sector), weight) in sum {
@@ -29,7 +31,7 @@ impl SymmetricTree<'_> {
         total
     }
 
-    /// Adds the torques on links of one whose work is that on the sum.
+    /// Converts a torque on the sum to torques on the links that do the same work, and adds them.
     fn add_to_links(&mut self, torques: &mut Fields, sum: &WeightedSum, torque: &TruncatedSeries) {
         for &((orbit, sector), weight) in sum {
             let norm = self.sector_norm(orbit, sector);
@@ -43,7 +45,7 @@ impl SymmetricTree<'_> {
         }
     }
 
-    /// u − ρ.
+    /// Returns the strain u − ρ.
     fn pair_strain(
         &mut self,
         own: &SpringDamperValues,
@@ -54,7 +56,7 @@ impl SymmetricTree<'_> {
         self.series.sub(&angle, &own.passive.rest)
     }
 
-    /// Adds the slopes of the springs' energy, of a sector or of all.
+    /// Adds the slopes of the springs' energy, of one sector or of all.
     pub(super) fn add_pair_springs(
         &mut self,
         sums: &mut Fields,
@@ -80,7 +82,7 @@ impl SymmetricTree<'_> {
         }
     }
 
-    /// Energy of the springs whose strain is `among` those asked for.
+    /// Returns the energy of the springs for the strains that `among` accepts.
     fn pair_energy(
         &mut self,
         values: &ConstantValues,
@@ -104,7 +106,7 @@ impl SymmetricTree<'_> {
         energy
     }
 
-    /// Energy of the springs between links in a sector.
+    /// Returns the energy in one sector of the springs between links.
     pub(super) fn pair_energy_of(
         &mut self,
         values: &ConstantValues,
@@ -114,7 +116,7 @@ impl SymmetricTree<'_> {
         self.pair_energy(values, angles, |sum| is_of(sum, sector))
     }
 
-    /// Energy of the springs that couple sectors.
+    /// Returns the energy of the springs that couple sectors.
     pub(super) fn pair_energy_across(
         &mut self,
         values: &ConstantValues,
@@ -147,7 +149,7 @@ impl SymmetricTree<'_> {
                 let torque = self.series.mul(&friction, &rate);
                 self.add_to_links(losses, sum, &torque);
             }
-            let law = passive.law(FrictionPlace::Joint);
+            let law = passive.law(FrictionContact::Joint);
             if !law.is_zero() {
                 for pair in &own.pairs {
                     self.add_pair_braking(losses, law, rates, pair);

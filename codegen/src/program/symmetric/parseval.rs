@@ -1,5 +1,6 @@
-//! Parseval for the velocities too (physics §5, definition B): Σ_s E_s = H,
-//! and the transfer matrix {E_s, E_r}.
+//! Energies of sectors (sets of symmetric coordinates: all means, or one difference between copies)
+//! by Parseval's identity, also for the velocities (physics §5, definition B): Σ_s E_s = H; and the
+//! transfer matrix {E_s, E_r}.
 
 use super::budget::{Share, SymmetricMotion};
 use super::direction::Direction;
@@ -8,24 +9,23 @@ use super::motion::{ConstantValues, Fields};
 use super::series::TruncatedSeries;
 use super::tree::SectorId;
 
-/// A vector in the plane for every link of an orbit: x, y.
+/// A vector (x, y) for every link of an orbit (set of equal copies of one link).
 type PlaneFields = [SymmetricField; 2];
 
-/// Velocities of the centres of mass, and how they change.
+/// Velocities of the centres of mass, with the levers from which they are computed.
 pub(in crate::program) struct Kinematics {
     velocities: Vec<PlaneFields>,
 }
 
-/// Slopes of a sector's energy: for each link, by its angle at fixed momenta,
-/// and by its momentum.
+/// Slopes of a sector's energy, for each link: by its angle at fixed momenta, and by its momentum.
 pub(in crate::program) struct EnergySlopes {
     angles: Fields,
     momenta: Fields,
 }
 
 impl SymmetricTree<'_> {
-    /// Derivative of a point of the links in their angle: (a cos − b sin,
-    /// a sin + b cos).
+    /// Returns the lever of a point of the links, its derivative by their angle: (a cos − b sin, a
+    /// sin + b cos).
     fn lever(&mut self, [a, b]: &[TruncatedSeries; 2], direction: &Direction) -> PlaneFields {
         let Direction { cos, sin } = direction;
         let parts = [
@@ -42,14 +42,14 @@ impl SymmetricTree<'_> {
         lever
     }
 
-    /// Hints at what the components of vectors are.
+    /// Suggests names for both components of a vector field.
     fn plane_hinted(&mut self, plane: &PlaneFields, what: &str) {
         for (axis, component) in ["x", "y"].iter().zip(plane) {
             self.hinted(component, &format!("{what}_{axis}"));
         }
     }
 
-    /// Second derivative: the lever turned by a right angle.
+    /// Returns the second derivative of the position, which is the lever rotated by a right angle.
     fn across(&mut self, [x, y]: &PlaneFields) -> PlaneFields {
         [self.neg(y), x.clone()]
     }
@@ -62,8 +62,9 @@ impl SymmetricTree<'_> {
         [self.mul(&plane[0], factor), self.mul(&plane[1], factor)]
     }
 
-    /// Velocities (or what is linear like them) of the centres of mass: for
-    /// each orbit `contribution(lever)` is what a point with that lever adds.
+    /// Computes the velocities of the centres of mass, or another quantity that is linear in the
+    /// levers. `contribution(lever)` is the contribution of a point with that lever, for each
+    /// orbit.
     fn of_centres(
         &mut self,
         values: &ConstantValues,
@@ -107,7 +108,7 @@ impl SymmetricTree<'_> {
         Kinematics { velocities }
     }
 
-    /// Σ over the orbits of mass · v_s · x_s + inertia · ω_s · y_s.
+    /// Returns the sum over the orbits of mass · v_s · x_s + inertia · ω_s · y_s.
     fn kinetic_product(
         &mut self,
         values: &ConstantValues,
@@ -140,7 +141,7 @@ impl SymmetricTree<'_> {
         sum
     }
 
-    /// E_s, W_s, P_s of all sectors.
+    /// Computes energy E_s, transfer W_s and power P_s of all sectors.
     pub(in crate::program) fn parseval_shares(
         &mut self,
         values: &ConstantValues,
@@ -188,7 +189,7 @@ impl SymmetricTree<'_> {
             .collect()
     }
 
-    /// The derivatives of E_s in angles (at fixed momenta) and momenta.
+    /// Computes the derivatives of E_s by angles (at fixed momenta) and by momenta.
     fn slopes(
         &mut self,
         values: &ConstantValues,
@@ -198,8 +199,8 @@ impl SymmetricTree<'_> {
         sector: SectorId,
     ) -> EnergySlopes {
         let orbits = 0..self.orbits.len();
-        // Impulses m v_s of the centres of mass, and what they sum to at each
-        // pivot, from the leaves to the root.
+        // Impulses m v_s of the centres of mass, and their sums at each pivot, from the leaves to
+        // the root.
         let impulses: Vec<PlaneFields> = orbits
             .clone()
             .map(|orbit| {
@@ -248,7 +249,7 @@ impl SymmetricTree<'_> {
         EnergySlopes { angles, momenta }
     }
 
-    /// lever · impulse to the derivative in ω, ω lever′ · impulse to that in θ.
+    /// Adds lever · impulse to the derivative by ω, and ω lever′ · impulse to that by θ.
     fn moment(
         &mut self,
         by_rates: &mut Fields,
@@ -272,7 +273,7 @@ impl SymmetricTree<'_> {
         self.accumulate(by_angles, &across);
     }
 
-    /// {E_s, E_r} by rows; antisymmetric, zero on the diagonal.
+    /// Computes {E_s, E_r} by rows; the matrix is antisymmetric, with a zero diagonal.
     pub(in crate::program) fn transfer_matrix(
         &mut self,
         values: &ConstantValues,

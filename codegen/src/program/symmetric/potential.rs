@@ -1,7 +1,7 @@
-//! The potential energy of a sector by Parseval (physics §5):
-//! 1 − cos θ = |1 − e^{iθ}|²/2, and the symmetric coordinates are orthogonal,
-//! so that U is a sum over sectors without interaction, with every part
-//! 2π-periodic in every angle.
+//! Potential energy of a sector (a set of symmetric coordinates: all means, or one difference
+//! between copies) by Parseval's identity (physics §5). 1 − cos θ = |1 − e^{iθ}|²/2, and the
+//! symmetric coordinates are orthogonal. U is therefore a sum over sectors without interaction, and
+//! each part is 2π-periodic in every angle.
 
 use super::field::{SymmetricField, SymmetricTree};
 use super::motion::{ConstantValues, Fields, Pose};
@@ -16,8 +16,8 @@ impl SymmetricTree<'_> {
         self.series.number(half)
     }
 
-    /// 1 − e^{iθ} of an orbit in a sector, real and imaginary part; the sign is
-    /// left out where both parts share it.
+    /// Returns the part of 1 − e^{iθ} of an orbit (set of equal copies of one link) in a sector,
+    /// real and imaginary. Both parts may have the opposite sign, which does not matter in squares.
     fn chord(&mut self, pose: &Pose, orbit: usize, sector: SectorId) -> [TruncatedSeries; 2] {
         let direction = &pose.directions[orbit];
         let (cos, sin) = (
@@ -32,7 +32,7 @@ impl SymmetricTree<'_> {
         [less, sin]
     }
 
-    /// V_s.
+    /// Computes the potential energy V_s of a sector.
     pub(super) fn sector_potential(
         &mut self,
         values: &ConstantValues,
@@ -70,7 +70,7 @@ impl SymmetricTree<'_> {
         self.series.add(&sum, &between)
     }
 
-    /// dV_s/dt at these angular velocities, of gravity and straight springs.
+    /// Computes dV_s/dt of gravity and straight springs at the given angular velocities.
     pub(super) fn sector_weight_rate(
         &mut self,
         values: &ConstantValues,
@@ -100,7 +100,7 @@ impl SymmetricTree<'_> {
         sum
     }
 
-    /// dV_s/dt at these angular velocities, of gravity and springs.
+    /// Computes dV_s/dt of gravity and springs at the given angular velocities.
     pub(super) fn sector_potential_rate(
         &mut self,
         values: &ConstantValues,
@@ -116,7 +116,7 @@ impl SymmetricTree<'_> {
         self.series.add(&weight, &springs)
     }
 
-    /// ∂V_s/∂q for the sector's own coordinates, of gravity and straight springs.
+    /// Computes ∂V_s/∂q of gravity and straight springs, for the sector's own coordinates.
     pub(super) fn sector_weight_gradient(
         &mut self,
         values: &ConstantValues,
@@ -143,7 +143,7 @@ impl SymmetricTree<'_> {
         gradient
     }
 
-    /// ∂V_s/∂θ of every link, gravity and springs.
+    /// Computes ∂V_s/∂θ of gravity and springs, for every link.
     pub(super) fn sector_potential_gradient(
         &mut self,
         values: &ConstantValues,
@@ -180,7 +180,7 @@ impl SymmetricTree<'_> {
         gradient
     }
 
-    /// ∂U/∂θ of the springs.
+    /// Computes ∂U/∂θ of the springs.
     pub(super) fn spring_gradient(&mut self, values: &ConstantValues, pose: &Pose) -> Fields {
         let mut gradient = self.zeros();
         self.add_springs(&mut gradient, values, &pose.angles);

@@ -1,14 +1,14 @@
-//! One over a quantity of every link, which keeps small differences accurate.
+//! Reciprocal of a field, which keeps small differences accurate.
 
 use super::field::{SymmetricField, SymmetricTree};
 use super::series::{SeriesArithmetic, TruncatedSeries};
 use super::tree::Branch;
 
-/// A function of one copy.
+/// A function applied to the value of one copy.
 type CopyFunction = fn(&mut SeriesArithmetic<'_>, &TruncatedSeries) -> TruncatedSeries;
 
 impl SymmetricTree<'_> {
-    /// One over a field, link by link.
+    /// Returns 1/f, link by link.
     pub(super) fn reciprocal(&mut self, f: &SymmetricField) -> SymmetricField {
         let branch = self.branch(f.orbit);
         if !f.varies_below(branch) {
@@ -19,7 +19,7 @@ impl SymmetricTree<'_> {
         let start = self.reciprocal_of_leading(&leading);
         let rest = self.sub(f, &leading);
         let mut result = start.clone();
-        // The residual is small: each round gains one order.
+        // The residual is small: each round corrects one further order.
         for _ in 0..self.series.truncation.unwrap_or(0) {
             let product = self.mul(&rest, &result);
             let correction = self.mul(&start, &product);
@@ -28,7 +28,7 @@ impl SymmetricTree<'_> {
         result
     }
 
-    /// The part of order 0.
+    /// Returns the part of order 0.
     pub(super) fn leading(&mut self, f: &SymmetricField) -> SymmetricField {
         let mean = self.series.leading(&f.mean);
         let mut result = SymmetricField::uniform(f.orbit, mean);
@@ -39,7 +39,7 @@ impl SymmetricTree<'_> {
         result
     }
 
-    /// One over a field without higher orders.
+    /// Returns the reciprocal of a field that has order 0 only.
     fn reciprocal_of_leading(&mut self, f: &SymmetricField) -> SymmetricField {
         let branch = self.branch(f.orbit);
         match branch {
@@ -55,7 +55,7 @@ impl SymmetricTree<'_> {
         }
     }
 
-    /// 1/(m ± d) = (m ∓ d)/((m + d)(m − d)).
+    /// Computes 1/(m ± d) = (m ∓ d)/((m + d)(m − d)).
     fn reciprocal_of_pair(&mut self, branch: &Branch, f: &SymmetricField) -> SymmetricField {
         let id = (branch.group, 1);
         let difference = f.at(id);
@@ -68,7 +68,8 @@ impl SymmetricTree<'_> {
         result
     }
 
-    /// A function of a field, copy by copy: an estimate, as copies are subtracted.
+    /// Applies a function copy by copy. The result is an estimate, because differences are computed
+    /// by subtracting copies.
     pub(super) fn by_copies(
         &mut self,
         f: &SymmetricField,
@@ -104,8 +105,8 @@ impl SymmetricTree<'_> {
         self.average(&inverses)
     }
 
-    /// One step of Newton's: x + x (1 − f x). Copies subtracted from one
-    /// another lose the digits of small differences; this brings them back.
+    /// Computes one Newton step: x + x (1 − f x). It restores the digits of small differences that
+    /// subtracting copies has lost.
     fn refined(&mut self, f: &SymmetricField, estimate: &SymmetricField) -> SymmetricField {
         let one = self.series.integer(1);
         let one = SymmetricField::uniform(f.orbit, one);

@@ -1,5 +1,6 @@
-//! Sectors: their share of a sum over links, their block of the mass matrix,
-//! their part of the potential energy.
+//! Quantities of a sector (a set of symmetric coordinates: all means, or one difference between
+//! copies): its part of a sum over links, its block of the mass matrix, and its part of the
+//! potential energy.
 
 use super::field::{SymmetricField, SymmetricTree};
 use super::motion::{ConstantValues, Fields, MassEntry, Pose};
@@ -7,11 +8,12 @@ use super::series::TruncatedSeries;
 use super::tree::{Branch, SectorId, weight};
 use std::collections::BTreeMap;
 
-/// Lower triangle of a symmetric matrix of the orbits in a sector.
+/// Lower triangle of a symmetric matrix; indices are orbits (sets of equal copies of one link) with
+/// a coordinate in the sector.
 pub(super) type SectorMatrix = BTreeMap<(usize, usize), TruncatedSeries>;
 
 impl SymmetricField {
-    /// The component in a sector.
+    /// Returns the component in a sector.
     pub(super) fn component(&self, sector: SectorId) -> TruncatedSeries {
         match sector {
             None => self.mean.clone(),
@@ -27,7 +29,7 @@ impl SymmetricField {
         }
     }
 
-    /// The part of the field that lies in a sector.
+    /// Returns the part of the field in a sector.
     pub(super) fn restricted(&self, sector: SectorId) -> Self {
         let mut part = Self::zero(self.orbit);
         part.set(sector, self.component(sector));
@@ -36,7 +38,7 @@ impl SymmetricField {
 }
 
 impl<'b> SymmetricTree<'b> {
-    /// The branching of that group on the way to an orbit.
+    /// Returns the branching of the given group on the path from the root to an orbit.
     fn find(&self, orbit: usize, group: usize) -> Option<&'b Branch> {
         let mut pending: Vec<&Branch> = self.orbits[orbit].branch.as_ref().into_iter().collect();
         while let Some(branch) = pending.pop() {
@@ -48,14 +50,14 @@ impl<'b> SymmetricTree<'b> {
         None
     }
 
-    /// The orbits that have a coordinate in the sector, parents first.
+    /// Returns the orbits that have a coordinate in the sector, parents first.
     pub(super) fn orbits_of(&self, sector: SectorId) -> Vec<usize> {
         (0..self.orbits.len())
             .filter(|&orbit| sector.is_none_or(|(group, _)| self.find(orbit, group).is_some()))
             .collect()
     }
 
-    /// Σ of the squared weights of the sector's coordinate of an orbit.
+    /// Returns the sum of the squared weights of an orbit's coordinate in the sector.
     pub(super) fn sector_norm(&mut self, orbit: usize, sector: SectorId) -> TruncatedSeries {
         let norm = match sector {
             None => self.orbits[orbit].links as i64,
@@ -64,8 +66,8 @@ impl<'b> SymmetricTree<'b> {
         self.series.integer(norm)
     }
 
-    /// Σ over the links of weight · value: what a sum of link torques is for
-    /// the sector's coordinate.
+    /// Returns Σ weight · value over the links: the generalized force on the sector's coordinate,
+    /// if the values are torques on the links.
     pub(in crate::program) fn projected(
         &mut self,
         field: &SymmetricField,
@@ -75,7 +77,7 @@ impl<'b> SymmetricTree<'b> {
         self.series.mul(&norm, &field.component(sector))
     }
 
-    /// The component of a field in a sector.
+    /// Returns the component of a field in a sector.
     pub(in crate::program) fn component(
         &mut self,
         field: &SymmetricField,
@@ -84,8 +86,8 @@ impl<'b> SymmetricTree<'b> {
         field.component(sector)
     }
 
-    /// Momenta of the symmetric coordinates as momenta of the links: what
-    /// [`projected`](Self::projected) undoes.
+    /// Converts momenta of the symmetric coordinates to momenta of the links, the inverse of
+    /// [`projected`](Self::projected).
     pub(in crate::program) fn per_link(&mut self, momenta: &Fields) -> Fields {
         let mut fields = self.zeros();
         for (orbit, momentum) in momenta.iter().enumerate() {
@@ -102,7 +104,7 @@ impl<'b> SymmetricTree<'b> {
         fields
     }
 
-    /// Σ over the links of weight² · value.
+    /// Returns Σ weight² · value over the links.
     pub(super) fn weighted(&mut self, field: &SymmetricField, sector: SectorId) -> TruncatedSeries {
         let Some((group, index)) = sector else {
             return self.projected(field, None);
@@ -128,7 +130,7 @@ impl<'b> SymmetricTree<'b> {
         sum
     }
 
-    /// The mean of all copies of a group.
+    /// Returns the mean over all copies of a group.
     fn mean_at<'t>(
         &mut self,
         branch: &'t Branch,
@@ -147,7 +149,7 @@ impl<'b> SymmetricTree<'b> {
         })
     }
 
-    /// The sector's block of M̃ for the coupling field of each entry.
+    /// Returns the sector's block of the mass matrix M̃, given the coupling field of each entry.
     fn block_of(
         &mut self,
         pose: &Pose,
@@ -180,7 +182,7 @@ impl<'b> SymmetricTree<'b> {
         block
     }
 
-    /// The sector's block of the mass matrix at the configuration.
+    /// Returns the sector's block of the mass matrix at the current angles.
     pub(super) fn block(
         &mut self,
         values: &ConstantValues,
@@ -191,7 +193,7 @@ impl<'b> SymmetricTree<'b> {
         self.with_diagonal(values, sector, block)
     }
 
-    /// The sector's block of the mass matrix with all angles zero.
+    /// Returns the sector's block of the mass matrix at zero angles.
     pub(super) fn block_at_rest(
         &mut self,
         values: &ConstantValues,
@@ -209,7 +211,7 @@ impl<'b> SymmetricTree<'b> {
         self.with_diagonal(values, sector, block)
     }
 
-    /// The time derivative of the sector's block.
+    /// Returns the time derivative of the sector's block.
     pub(super) fn block_rate(
         &mut self,
         pose: &Pose,
@@ -223,7 +225,7 @@ impl<'b> SymmetricTree<'b> {
         })
     }
 
-    /// xᵀ B x.
+    /// Returns the quadratic form xᵀ B x.
     pub(super) fn quadratic(
         &mut self,
         block: &SectorMatrix,
@@ -241,7 +243,7 @@ impl<'b> SymmetricTree<'b> {
         sum
     }
 
-    /// xᵀ B y.
+    /// Returns the bilinear form xᵀ B y.
     pub(super) fn bilinear(
         &mut self,
         block: &SectorMatrix,
@@ -261,7 +263,7 @@ impl<'b> SymmetricTree<'b> {
         sum
     }
 
-    /// Σ x y.
+    /// Returns the inner product Σ x y.
     pub(super) fn inner(
         &mut self,
         x: &BTreeMap<usize, TruncatedSeries>,
@@ -275,7 +277,7 @@ impl<'b> SymmetricTree<'b> {
         sum
     }
 
-    /// x with B x = right, by the elimination of the mass matrix.
+    /// Solves B x = right for x, by the same elimination as for the mass matrix.
     pub(super) fn solve_block(
         &mut self,
         block: &SectorMatrix,
@@ -337,7 +339,7 @@ impl<'b> SymmetricTree<'b> {
         solution
     }
 
-    /// For each orbit of the sector, the projection of a vector.
+    /// Returns the projection of a vector for each orbit of the sector.
     pub(super) fn projections(
         &mut self,
         fields: &Fields,
@@ -350,7 +352,7 @@ impl<'b> SymmetricTree<'b> {
             .collect()
     }
 
-    /// For each orbit of the sector, the component of a vector.
+    /// Returns the component of a vector for each orbit of the sector.
     pub(super) fn components(
         &self,
         fields: &Fields,

@@ -1,20 +1,19 @@
 //! Values graded by powers of ε, the size of the differences.
 //!
-//! Without a truncation everything has order 0 and a series is one value. With
-//! one, differences start at order 1, and products drop what is beyond the
-//! order kept: the expansion about the in-phase motion comes out of the same
-//! formulas as the exact form (physics §4).
+//! Without truncation everything has order 0, and a series is a single value. With truncation,
+//! differences have order 1, and products drop terms beyond the highest order. The same formulas
+//! then give both the exact form and the expansion about the in-phase motion (physics §4).
 
 use crate::exact::Rational;
 use crate::program::ValueId;
 use crate::program::builder::Builder;
 
-/// A truncated power series in ε; coefficient k belongs to ε^k. Zero has none.
+/// A truncated power series in ε; coefficient k belongs to ε^k. Zero has no coefficients.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(in crate::program) struct TruncatedSeries(Vec<Option<ValueId>>);
 
 impl TruncatedSeries {
-    /// A value of that order.
+    /// Creates a series with a single coefficient, that of ε^order.
     pub(in crate::program) fn of_order(order: usize, value: ValueId) -> Self {
         let mut coefficients = vec![None; order];
         coefficients.push(Some(value));
@@ -25,7 +24,7 @@ impl TruncatedSeries {
         self.0.is_empty()
     }
 
-    /// The coefficient of ε^order, if it is not zero.
+    /// Returns the coefficient of ε^order, if it is not zero.
     pub(super) fn coefficient(&self, order: usize) -> Option<ValueId> {
         self.0.get(order).copied().flatten()
     }
@@ -39,7 +38,7 @@ impl TruncatedSeries {
 /// Arithmetic on series.
 pub(in crate::program) struct SeriesArithmetic<'b> {
     pub(in crate::program) builder: &'b mut Builder,
-    /// Highest order kept, if differences count as small.
+    /// Highest order that is kept, if differences count as small.
     pub(in crate::program) truncation: Option<usize>,
 }
 
@@ -58,7 +57,7 @@ impl SeriesArithmetic<'_> {
         TruncatedSeries(coefficients)
     }
 
-    /// A value that does not depend on ε.
+    /// Creates a series from a value that does not depend on ε.
     pub(in crate::program) fn value(&mut self, value: ValueId) -> TruncatedSeries {
         self.collected(vec![Some(value)])
     }
@@ -72,7 +71,7 @@ impl SeriesArithmetic<'_> {
         self.number(Rational::from(number))
     }
 
-    /// A value that is small of first order, where orders are counted.
+    /// Creates a series from a value of first order; of order 0 if there is no truncation.
     pub(in crate::program) fn small(&mut self, value: ValueId) -> TruncatedSeries {
         if self.builder.is(value, 0) {
             return TruncatedSeries::default();
@@ -80,7 +79,7 @@ impl SeriesArithmetic<'_> {
         TruncatedSeries::of_order(usize::from(self.truncation.is_some()), value)
     }
 
-    /// The part of order 0.
+    /// Returns the part of order 0.
     pub(super) fn leading(&mut self, series: &TruncatedSeries) -> TruncatedSeries {
         let kept = series.0.iter().take(1).copied().collect();
         self.collected(kept)
@@ -121,7 +120,7 @@ impl SeriesArithmetic<'_> {
         self.sub(&TruncatedSeries::default(), a)
     }
 
-    /// Product, cut off beyond the highest order.
+    /// Returns the product, truncated at the highest order.
     pub(super) fn mul(&mut self, a: &TruncatedSeries, b: &TruncatedSeries) -> TruncatedSeries {
         let highest = self.highest();
         let mut coefficients: Vec<Option<ValueId>> = vec![None; highest + 1];
@@ -144,7 +143,7 @@ impl SeriesArithmetic<'_> {
         self.mul(&factor, a)
     }
 
-    /// The sum of all orders: the value at ε = 1.
+    /// Returns the sum of all orders: the value at ε = 1.
     pub(in crate::program) fn total(&mut self, series: &TruncatedSeries) -> ValueId {
         let mut total = self.builder.integer(0);
         for (_, value) in series.orders() {
@@ -153,7 +152,7 @@ impl SeriesArithmetic<'_> {
         total
     }
 
-    /// Hints at what the values are, order by order.
+    /// Suggests names for the values, order by order.
     pub(super) fn hint(&mut self, series: &TruncatedSeries, name: &str) {
         for (order, value) in series.orders() {
             match order {
@@ -163,7 +162,7 @@ impl SeriesArithmetic<'_> {
         }
     }
 
-    /// All orders but the highest one kept.
+    /// Returns the series without the highest order.
     pub(in crate::program) fn without_highest(
         &mut self,
         series: &TruncatedSeries,
@@ -173,7 +172,7 @@ impl SeriesArithmetic<'_> {
         self.collected(kept)
     }
 
-    /// 1/√a of the part of order 0, which must be there.
+    /// Returns 1/√a of the part of order 0, which must not be zero.
     pub(super) fn inverse_root(&mut self, a: &TruncatedSeries) -> TruncatedSeries {
         let Some(leading) = a.coefficient(0) else {
             unreachable!("a width of friction is positive")
@@ -184,7 +183,7 @@ impl SeriesArithmetic<'_> {
         self.value(inverse)
     }
 
-    /// 1/a, from the lowest order upwards; order 0 must be there.
+    /// Returns 1/a, computed from the lowest order upwards; the part of order 0 must not be zero.
     pub(super) fn reciprocal(&mut self, a: &TruncatedSeries) -> TruncatedSeries {
         let Some(leading) = a.coefficient(0) else {
             unreachable!("a pivot vanishes with the differences")

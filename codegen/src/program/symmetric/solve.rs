@@ -1,17 +1,18 @@
-//! Linear systems with the mass matrix, all copies of an orbit at once.
+//! Linear systems with the mass matrix, solved for all copies of an orbit (set of equal copies of
+//! one link) at once.
 
 use super::field::{SymmetricField, SymmetricTree};
 use super::motion::{ConstantValues, Fields, Pose};
 use std::collections::BTreeMap;
 
-/// Lower triangle of a symmetric matrix by orbits. The entry (row, column)
-/// belongs to the links of orbit `row` and their ancestors in `column`.
+/// Lower triangle of a symmetric matrix by orbits. The entry (row, column) belongs to the links of
+/// orbit `row` and their ancestors in orbit `column`.
 type OrbitMatrix = BTreeMap<(usize, usize), SymmetricField>;
 
-/// Factors L and D of the mass matrix, LᵀDL, over the tree without fill-in.
+/// Factors L and D of the mass matrix M = LᵀDL. On a tree there is no fill-in.
 pub(in crate::program) struct MassFactors {
     inverses: Vec<SymmetricField>,
-    /// Descendant, ancestor, multiplier.
+    /// Orbits of descendant and ancestor, and the multiplier.
     ratios: Vec<(usize, usize, SymmetricField)>,
 }
 
@@ -30,8 +31,8 @@ impl SymmetricTree<'_> {
         matrix
     }
 
-    /// Eliminates from the leaves to the root (Featherstone, Rigid Body
-    /// Dynamics Algorithms, 2008, §6.5), all copies of an orbit at once.
+    /// Factorises the mass matrix from the leaves to the root (Featherstone, Rigid Body Dynamics
+    /// Algorithms, 2008, §6.5), for all copies of an orbit at once.
     pub(in crate::program) fn factors(
         &mut self,
         values: &ConstantValues,
@@ -70,7 +71,7 @@ impl SymmetricTree<'_> {
         MassFactors { inverses, ratios }
     }
 
-    /// x with M x = right.
+    /// Solves M x = right for x.
     pub(in crate::program) fn solve(&mut self, factors: &MassFactors, right: &Fields) -> Fields {
         let mut solution = right.clone();
         for (orbit, above, ratio) in &factors.ratios {

@@ -1,8 +1,8 @@
-//! Constants of springs and friction between links that are not parent and child, and the sums
-//! of symmetric coordinates that they act on.
+//! Constants of springs and friction between links that are not parent and child, and the sums of
+//! symmetric coordinates that they depend on.
 //!
-//! Between all copies under one link the sums of the linear torques are diagonal: n κ of one
-//! coordinate by itself, with n formed of weights alone.
+//! Between all copies under one link the linear torques are diagonal in the differences: each is n
+//! κ times one coordinate, with n computed from the weights alone.
 
 use super::series::TruncatedSeries;
 use super::tree::SectorId;
@@ -10,23 +10,24 @@ use crate::mechanics::PairElement;
 use crate::scene::{Coordinate, PassiveTorques};
 use std::collections::BTreeMap;
 
-/// A sum of symmetric coordinates, each by its orbit and sector, with their weights.
+/// A sum of symmetric coordinates: orbit (set of equal copies of one link), sector and weight of
+/// each.
 pub(super) type WeightedSum = Vec<((usize, SectorId), i64)>;
 
-/// A spring-damper between two links, or between all copies of a node.
+/// Values of a spring-damper between two links, or between all copies of a node.
 pub(in crate::program) struct SpringDamperValues {
     pub(in crate::program) passive: PassiveTorques<TruncatedSeries>,
-    /// Numbers n and sums u with the energy ½ κ Σ n (u − ρ)² of the spring, each of one sector
-    /// unless springs couple sectors.
+    /// Numbers n and sums u of coordinates in the spring's energy ½ κ Σ n (u − ρ)². Each sum
+    /// belongs to one sector, unless springs couple sectors.
     pub(super) strains: Vec<(i64, WeightedSum)>,
-    /// Numbers n and sums u with the power −c Σ n u² of viscous friction.
+    /// Numbers n and sums u of coordinates in the power −c Σ n u² of viscous friction.
     pub(super) slips: Vec<(i64, WeightedSum)>,
-    /// Differences of the links, two by two.
+    /// Difference of the two angles, for each pair of links.
     pub(super) pairs: Vec<WeightedSum>,
 }
 
 impl SpringDamperValues {
-    /// All of the pairs' spring-dampers; `passive` says what the constants of a pair are.
+    /// Creates the spring-dampers of all pairs; `passive` returns the constants of a pair.
     /// `couples` is true if their springs together couple sectors.
     pub(in crate::program) fn of(
         pairs: &[PairElement],
@@ -66,7 +67,7 @@ impl SpringDamperValues {
     }
 }
 
-/// The sums sector by sector: what couples these cancels between several springs.
+/// Splits the sums by sector. Terms that couple sectors cancel between the springs.
 fn by_sector(sums: &[(i64, WeightedSum)]) -> Vec<(i64, WeightedSum)> {
     let mut parts = Vec::new();
     for (number, sum) in sums {
@@ -84,8 +85,8 @@ fn by_sector(sums: &[(i64, WeightedSum)]) -> Vec<(i64, WeightedSum)> {
     parts
 }
 
-/// Σ w² of each coordinate over the differences of all copies under one link; products of
-/// two coordinates cancel.
+/// Returns Σ w² of each coordinate over the differences between all copies under one link. Products
+/// of two coordinates cancel.
 fn squares(sums: &[Vec<(usize, i64)>]) -> BTreeMap<usize, i64> {
     let mut squares = BTreeMap::new();
     for &(index, weight) in sums.iter().flatten() {

@@ -1,4 +1,4 @@
-//! The branching of an orbit's links into copies.
+//! Branching of the links of an orbit (set of equal copies of one link) into copies.
 
 use crate::exact::Rational;
 use crate::scene::Coordinate;
@@ -6,56 +6,57 @@ use crate::scene::{LinkId, Scene};
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
 
-/// A difference: index of the group, number of the difference from 1.
+/// A difference: index of the group, and number of the difference from 1.
 pub(in crate::program) type DifferenceId = (usize, usize);
 
-/// A sector: one difference, or the means.
+/// A sector: one difference, or `None` for the means.
 pub(in crate::program) type SectorId = Option<DifferenceId>;
 
 /// The links of one orbit.
 #[derive(Clone, Debug)]
 pub(in crate::program) struct OrbitLinks {
-    /// Number of links.
+    /// Number of links in the orbit.
     pub(super) links: usize,
     /// Orbit of the links' parents.
     pub(super) parent: Option<usize>,
-    /// The outermost branching, if there is one.
+    /// Outermost branching, if there is one.
     pub(super) branch: Option<Branch>,
-    /// Names of its mean and differences.
+    /// Names of the mean and the differences.
     names: BTreeMap<SectorId, String>,
 }
 
 impl OrbitLinks {
-    /// Name of the mean, or of a difference.
+    /// Returns the name of the mean, or of a difference.
     pub(super) fn name(&self, sector: SectorId) -> &str {
         self.names.get(&sector).map_or("", String::as_str)
     }
 }
 
-/// A branching into copies on the way from the root to an orbit.
+/// A branching into copies on the path from the root to an orbit.
 #[derive(Clone, Debug)]
 pub(in crate::program) struct Branch {
     /// Index of the group in the scene.
     pub(super) group: usize,
     /// Further branchings within each copy.
     pub(super) copies: Vec<Option<Branch>>,
-    /// Links of the orbit in one copy.
+    /// Number of the orbit's links in one copy.
     pub(super) links_per_copy: usize,
 }
 
 impl Branch {
-    /// Number of differences between the copies.
+    /// Returns the number of differences between the copies.
     pub(super) fn differences(&self) -> usize {
         self.copies.len() - 1
     }
 
-    /// Σ of the squared Helmert weights over the links of the orbit.
+    /// Returns the sum of the squared Helmert weights over the links of the orbit.
     pub(super) fn norm(&self, difference: usize) -> i64 {
         (difference * (difference + 1) * self.links_per_copy) as i64
     }
 }
 
-/// Helmert weight of difference `difference` (from 1) in copy `copy`.
+/// Returns the weight of copy `copy` (from 0) in difference number `difference` (from 1): 1 for the
+/// first `difference` copies, −`difference` for the next one, and 0 for later ones.
 pub(super) fn weight(difference: usize, copy: usize) -> i64 {
     match copy {
         copy if copy < difference => 1,
@@ -64,13 +65,13 @@ pub(super) fn weight(difference: usize, copy: usize) -> i64 {
     }
 }
 
-/// Σ_a w_ja w_ia w_la / Σ_a w_ja²: how the product of differences i and l shows in
-/// difference j of so many copies; the triples i, l and ratio that are not zero.
+/// Returns the nonzero coefficients Σ_a w_ja w_ia w_la / Σ_a w_ja² with their indices i and l: the
+/// part in difference j of the product of differences i and l, for the given number of copies.
 ///
-/// Of the weights of the highest index, the copies below it have 1 and those behind it 0.
-/// So the sum is that of the two others, which are orthogonal: their norm where they are
-/// equal; where the highest index is twice there, the sum of the third one, 0; and
-/// m − m³ for three equal ones.
+/// Of the weights of the highest index, the copies before it have 1 and those after it 0. The sum
+/// is therefore that of the other two weights, which are orthogonal: their norm if they are equal;
+/// 0, the sum of the third weight, if the highest index occurs twice; and m − m³ for three equal
+/// indices.
 pub(super) fn structure(copies: usize, j: usize) -> impl Iterator<Item = (usize, usize, Rational)> {
     (1..copies).flat_map(move |i| {
         let others = match i.cmp(&j) {
@@ -91,7 +92,7 @@ pub(super) fn structure(copies: usize, j: usize) -> impl Iterator<Item = (usize,
     })
 }
 
-/// The orbits of a scene, in its order: parents first.
+/// Returns the orbits of a scene in its order, parents first.
 pub(in crate::program) fn orbits(scene: &Scene, coordinates: &[Coordinate]) -> Vec<OrbitLinks> {
     let names = |number: usize| {
         let named = coordinates.iter().filter_map(|coordinate| {

@@ -1,11 +1,11 @@
-//! The catalogue of messages: all that the front end has to say to a user, by the part
-//! of a description that it is about. Every one says what is wrong and what to write
-//! instead.
+//! Catalogue of all error messages of the front end, grouped by the part of a description that they
+//! are about. Every message states the mistake and what to write instead.
 
 use std::fmt;
 
-/// Declares an enum of messages, each with its words: the mistake in a statement that stands
-/// on its own, the mistake in the marked tokens, and what to write instead.
+/// Declares an enum of messages, each with three texts: the mistake in a complete statement
+/// (`text`), the mistake as a label of the marked tokens (`label`), and what to write instead
+/// (`hint`).
 macro_rules! messages {
     (
         $(#[$about:meta])*
@@ -31,10 +31,10 @@ macro_rules! messages {
         }
 
         impl $name {
-            /// Names of all of them.
+            /// Names of all messages of this enum.
             pub const NAMES: &[&str] = &[$(stringify!($message)),+];
 
-            /// The message in words.
+            /// Returns the texts of the message.
             pub(super) fn problem(&self) -> Problem {
                 match self {
                     $(Self::$message $({ $($field),+ })? => Problem {
@@ -69,20 +69,20 @@ pub use value::{Lookalike, ValueMessage};
 /// A mistake in a description.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Message {
-    /// About its tokens, the struct and the settings.
+    /// Mistake in the tokens of the description, the struct or the settings.
     Syntax(SyntaxMessage),
-    /// About its links and their names.
+    /// Mistake in the links or their names.
     Tree(TreeMessage),
-    /// About its values and the drive.
+    /// Mistake in the values or the drive.
     Value(ValueMessage),
-    /// About the outputs that it asks for.
+    /// Mistake in the requested outputs.
     Output(OutputMessage),
-    /// About how large it is and what can be derived of it.
+    /// The tree is too large, or its equations cannot be derived.
     Size(SizeMessage),
 }
 
 impl Message {
-    /// The message in words.
+    /// Returns the texts of the message.
     pub fn problem(&self) -> Problem {
         match self {
             Self::Syntax(message) => message.problem(),
@@ -94,18 +94,18 @@ impl Message {
     }
 }
 
-/// A message in words.
+/// Texts of a message, in the parts that the compiler prints.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Problem {
-    /// Statement of the mistake that stands on its own.
+    /// Complete statement of the mistake.
     pub text: String,
-    /// Mistake in the marked tokens.
+    /// Label of the marked tokens, which states the mistake briefly.
     pub label: String,
     /// Correction to write instead.
     pub hint: String,
 }
 
-/// The name that was probably meant, or else what there is.
+/// Returns a hint that suggests the name `nearest`, or else the hint `otherwise`.
 fn suggest(nearest: &Option<impl fmt::Display>, otherwise: impl Into<String>) -> String {
     match nearest {
         Some(nearest) => format!("did you mean `{nearest}`?"),
@@ -113,7 +113,7 @@ fn suggest(nearest: &Option<impl fmt::Display>, otherwise: impl Into<String>) ->
     }
 }
 
-/// Names with commas between them.
+/// Joins names with commas.
 fn listed(names: &[&str]) -> String {
     let quoted: Vec<String> = names.iter().map(|name| format!("`{name}`")).collect();
     quoted.join(", ")

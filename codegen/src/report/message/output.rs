@@ -1,236 +1,244 @@
-//! Messages about a description: the outputs that it asks for.
+//! Messages about the outputs that a description requests.
 
 use super::{Problem, listed, suggest};
 
 messages! {
-    /// A mistake in a description: the outputs that it asks for.
+    /// A mistake in the outputs that a description requests.
     OutputMessage as Output:
 
-    /// An output that does not exist.
+    /// The requested output does not exist.
     UnknownRequest { name: String, nearest: Option<&'static str> } => (
         format!("unknown output `{name}`"),
-        "cannot be emitted",
+        "not an output",
         suggest(
             nearest,
             "outputs are `energies`, `momenta`, `modes`, `positions`, `forces`, `symmetric`, \
-             `transfer(...)`, `budget(...)`, `transverse`, `small(...)`, `taylor`; accelerations \
-             are always there",
+             `transfer(...)`, `budget(...)`, `transverse`, `small(...)`, `normal_form`, `taylor`; \
+             accelerations are always emitted",
         ),
     ),
-    /// An output asked for twice.
+    /// An output is requested twice.
     DuplicateRequest { name: String } => (
-        format!("`{name}` is asked for twice"),
-        "asked for before",
+        format!("`{name}` is given twice"),
+        "already given",
         "keep one of them",
     ),
-    /// Parentheses after an output without forms.
+    /// Parentheses follow an output that has no forms.
     RequestForms { name: String } => (
-        format!("`{name}` has no forms"),
+        format!("`{name}` takes no forms"),
         "takes no parentheses",
         format!("write `{name}` alone"),
     ),
-    /// A form of the budget that does not exist.
+    /// The requested form of the energy budget does not exist.
     UnknownBudgetForm { name: String, nearest: Option<&'static str> } => (
         format!("unknown form `{name}` of the budget"),
-        "not a form",
+        "not a form of the budget",
         suggest(
             nearest,
             "forms are `canonical`, `parseval`, `velocity`, `rest`, `matrix`, `scales`, \
              `angle = 1`, `amplitude = 4`",
         ),
     ),
-    /// Energies of sectors that a spring between links couples.
+    /// Energies of sectors are requested, but a spring between links couples sectors (independent
+    /// sets of symmetric coordinates).
     CoupledSectors { what: String } => (
-        format!("the spring of `{what}` couples the tree's sectors"),
-        "no sector has an energy by itself",
-        "write `siblings(NODE, spring = ...)` for springs between all copies of a node under \
-         one link, or watch an energy of your own by `observe(...)`",
+        format!("the spring of `{what}` couples sectors, whose energies are requested"),
+        "no sector has a separate energy",
+        "write `siblings(NODE, spring = ...)`, which puts springs between all copies of a node \
+         under one link, or define an energy yourself by `observe(...)`",
     ),
-    /// An output that this straight spring is not part of.
+    /// The requested output cannot include the forces of this straight spring.
     StraightSpring { line: String, noun: &'static str, request: &'static str, cause: NoChord } => (
-        format!("`{request}` beside the {line}"),
+        format!("`{request}` cannot include the {line}"),
         cause.label(),
         format!(
-            "of straight springs `{request}` knows those without length at rest and without \
-             friction alone, between equal places of all copies of a node under one link, as in \
+            "`{request}` supports straight springs of zero rest length, without friction, between \
+             the same point of all copies of a node under one link, as in \
              `siblings(NODE, at = ..., spring = ...)`; leave `{request}` out, write a torsion \
-             spring without `at`, or hand over the {noun}'s forces by `emit(positions, forces)`"
+             spring without `at`, or compute the {noun}'s forces yourself with \
+             `emit(positions, forces)`"
         ),
     ),
-    /// A budget by scale beside a straight spring.
+    /// A budget by scale (by generation) is requested for a tree with a straight spring.
     StraightSpringByScale { line: String, noun: &'static str } => (
-        format!("`budget(scales)` beside the {line}"),
-        "a length depends on several scales",
+        format!("`budget(scales)` cannot include the {line}"),
+        "its length depends on several scales",
         format!(
-            "leave `scales` out, write a torsion spring between siblings, without `at`, or hand \
-             over the {noun}'s forces by `emit(positions, forces)`"
+            "leave `scales` out, write a torsion spring between siblings, without `at`, or compute \
+             the {noun}'s forces yourself with `emit(positions, forces)`"
         ),
     ),
-    /// A form of the budget beside `scales` that loops do not have.
+    /// `scales` is combined with a form of the budget that code in loops does not compute.
     BesideScales => (
-        "budgets by scale are those of Parseval's energies alone",
-        "not beside `scales`",
-        "write `budget(parseval, scales)`, and other forms in a model of their own",
+        "`scales` can be combined with `parseval` only",
+        "cannot be combined with `scales`",
+        "write `budget(parseval, scales)`, and request other forms for a separate model",
     ),
-    /// Budgets by scale of a tree that is not in loops over generations.
+    /// Budgets by scale are requested for a tree whose code is not loops over generations.
     ScalesWithoutRule => (
-        "budgets by scale are for trees by rule, in loops",
+        "`budget(scales)` needs a whole tree described by one rule, in loops",
         "no loops over generations of several copies here",
         "describe the whole tree as `generations(count = 5, branching = 2, ...)` with equal \
-         copies, without `code = unrolled`, `in_phase` and `locked`; other trees have \
-         `budget(parseval, matrix)` by sector",
+         copies, without `code = unrolled`, `in_phase` and `locked`; for other trees write \
+         `budget(parseval, matrix)`, which gives energies by sector; with `open = 1` only trees at \
+         run time have a budget by scale",
     ),
-    /// `budget()` without any form.
+    /// The parentheses of `budget()` contain no form.
     NoBudgetForm => (
-        "no form of the budget is chosen",
+        "`budget()` names no form",
         "empty",
-        "write `budget` for all exact forms, or choose: `budget(parseval)`",
+        "write `budget` for all exact forms, or name some: `budget(parseval)`",
     ),
-    /// `small` without sectors.
+    /// The parentheses of `small()` contain no sector.
     NoSmallSector => (
-        "no sector is named as small",
+        "`small()` names no sector",
         "empty",
         "write `small(child_d)` with names of sectors, or leave it out to count all \
          differences as small",
     ),
-    /// `small(...)` in a budget without truncated forms.
+    /// A budget without truncated forms contains `small(...)`.
     SmallWithoutOrder => (
-        "`small` needs an order",
-        "nothing is expanded in it",
-        "write `budget(amplitude = 4, small(...))`, or leave it out: other forms are exact",
+        "`small(...)` needs a truncated form of the budget",
+        "no form here is truncated",
+        "write `budget(amplitude = 4, small(...))`, or leave `small` out: other forms are exact",
     ),
-    /// A sector that the scene does not have.
+    /// The scene has no sector of this name.
     UnknownSector { name: String, nearest: Option<String>, known: String } => (
         format!("unknown sector `{name}`"),
         "not a sector of differences",
         suggest(nearest, format!("sectors are `{known}`")),
     ),
-    /// A form of the budget that takes no value.
+    /// A form of the budget that takes no value is given one.
     BudgetOrder { form: String } => (
-        format!("`{form}` has no order"),
+        format!("`{form}` takes no order"),
         "takes no value",
         format!("write `{form}` alone"),
     ),
-    /// A form of the transfer that does not exist.
+    /// The requested form of the transfer does not exist.
     UnknownForm { name: String, nearest: Option<&'static str> } => (
         format!("unknown form `{name}` of the transfer"),
-        "not a form",
+        "not a form of the transfer",
         suggest(nearest, "forms are `angle = 1`, `amplitude = 2`, `exact`"),
     ),
-    /// `transfer()` without a form.
+    /// The parentheses of `transfer()` contain no form.
     NoForm => (
-        "no form of the transfer is chosen",
+        "`transfer()` names no form",
         "empty",
-        "write `transfer` for all forms, or choose: `transfer(exact)`",
+        "write `transfer` for all forms, or name some: `transfer(exact)`",
     ),
-    /// `exact = ...`.
+    /// The exact transfer is given an order: `exact = ...`.
     ExactOrder => (
-        "the exact transfer has no order",
+        "the exact transfer takes no order",
         "takes no value",
         "write `exact` alone",
     ),
-    /// An order of the difference angles that is not derived.
+    /// The requested order in the difference angles is not available.
     AngleOrder => (
-        "order of the angles not available",
-        "orders are 1 to 8",
-        "write `angle = 1` for the form of the paper, or use `exact`",
+        "this order in the difference angles is not available",
+        "expected an order from 1 to 8",
+        "write `angle = 1` for the paper's form, or use `exact`",
     ),
-    /// An order of the amplitude that is not derived.
+    /// The requested order in the amplitude is not available.
     AmplitudeOrder => (
-        "order of the amplitude not available",
-        "orders are 2 to 8",
+        "this order in the amplitude is not available",
+        "expected an order from 2 to 8",
         "write `amplitude = 2` for the quadratic form, or use `exact`",
     ),
-    /// Symmetric coordinates without identical siblings.
+    /// Symmetric coordinates are requested for a tree without identical siblings.
     NoSiblings { request: String } => (
         format!("`{request}` needs identical siblings"),
         "no link has copies",
-        "write `child(...) * 2`: links that merely have equal numbers do not count",
+        "write copies as in `child(...) * 2`; links that merely have equal values do not count",
     ),
-    /// An output that holds between equal copies only.
+    /// The request requires equal copies, but the values of these copies differ.
     UnequalCopies { node: String, wanted: UnequalUse } => (
         wanted.refusal(),
         format!("the copies of `{node}` differ"),
         wanted.hint(),
     ),
-    /// Transfer between identical siblings that have children.
+    /// The transfer is requested between identical siblings that have children.
     NestedGroups { group: String } => (
-        format!(
-            "`transfer` needs siblings without children, the copies of `{group}` \
-                 have some"
-        ),
-        "tree not supported",
-        "for this tree ask for `budget(canonical, amplitude = 4)`, which knows sectors of \
-           any size; `transfer` is for trees whose copied links are leaves",
+        format!("`transfer` needs siblings without children: the copies of `{group}` have some"),
+        "these copies have children",
+        "write `budget(canonical, amplitude = 4)`, which supports sectors of any size; `transfer` \
+         is for trees whose copied links are leaves",
     ),
-    /// Transfer between siblings whose centre of mass lies off their axis.
+    /// The transfer is requested between siblings whose centre of mass lies off their axis.
     LateralTransfer { link: String } => (
         format!("`transfer` needs the centre of mass of `{link}` on its axis"),
-        "a lateral centre of mass among the copies",
-        "measure the copies' angles from the line through pivot and centre of mass: \
-           `com = 0.05` instead of `com = (0.04, 0.03)`",
+        "the centre of mass is off the axis",
+        "measure the copies' angles from the line through pivot and centre of mass: write \
+         `com = 0.05` instead of `com = (0.04, 0.03)`",
     ),
-    /// A name in an observable that means nothing.
+    /// The normal form is requested for a tree for which it has no closed form.
+    NoNormalForm { cause: String } => (
+        "`normal_form` has no formulas for this tree",
+        cause.clone(),
+        "formulas exist for one link, for a chain of two, and for a link with equal copies of \
+         another one, with springs in their pivots only; for other trees compute numbers at run \
+         time by `analysis::normal_form::NormalForm`, from a model with `emit(energies)`",
+    ),
+    /// A name in an observable is unknown.
     UnknownSymbol { name: String, nearest: Option<String>, example: String } => (
         format!("unknown symbol `{name}`"),
-        "means nothing in this scene",
+        "unknown in this scene",
         suggest(
             nearest,
             format!(
-                "observables are made of angles as `theta_{example}`, velocities as \
+                "observables can use angles as `theta_{example}`, velocities as \
                  `omega_{example}`, momenta as `p_{example}`, `kinetic_energy`, \
                  `potential_energy`, `gravity`, parameters and the model's constants"
             ),
         ),
     ),
-    /// A name in an observable that means two things.
+    /// A name in an observable is both a parameter and a symbol of the mechanics.
     AmbiguousSymbol { name: String } => (
-        format!("`{name}` means two things"),
-        "a parameter, and a symbol of the mechanics",
+        format!("the name `{name}` is ambiguous"),
+        "both a parameter and a symbol of the mechanics",
         "give the parameter another name",
     ),
-    /// A function in an observable that does not exist.
+    /// An observable calls an unknown function.
     UnknownFunction { name: String, known: Vec<&'static str> } => (
         format!("unknown function `{name}`"),
         "not a function of observables",
         format!("functions are {}", listed(known)),
     ),
-    /// An observable that would emit a function which exists already.
+    /// The function that an observable would emit exists already.
     FunctionTaken { name: String, function: String } => (
-        format!("there is a function `{function}` already"),
+        format!("the function `{function}` exists already"),
         format!("`{name}` would emit it again"),
         format!("choose another name, as in `my_{name}`"),
     ),
-    /// Small differences of copies in phase where there are none.
+    /// Small differences between copies are requested, but no copies move in phase.
     NoTransverse { request: &'static str } => (
         format!("`{request}` needs copies that move in phase"),
-        "nothing moves in phase",
+        "no copies move in phase",
         "add `in_phase(all)`, or `in_phase(child)` with a link that has copies",
     ),
-    /// An output that is derived for one tree, of a tree that is described at run time.
+    /// The requested output has to be derived for one tree, but this tree is described at run time.
     NotAtRunTime { what: String } => (
-        format!("no `{what}` at run time"),
-        "has to be derived for this tree",
+        format!("`{what}` is not available for a tree described at run time"),
+        "needs a derivation for this tree",
         "leave it out, or let the attribute `#[branched_pendulum(...)]` compile this tree",
     ),
 }
 
-/// Why sectors know nothing of a straight spring.
+/// Reason why the equations of the sectors cannot include a straight spring.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum NoChord {
-    /// The line ends on the ground.
+    /// The line ends on the ground instead of a second link.
     Guy,
-    /// Something else than a spring stores energy.
+    /// The line's energy follows another law than that of a spring.
     Repulsion,
-    /// The spring has a length at rest.
+    /// The spring has a rest length.
     Rest,
-    /// There is a damper.
+    /// There is a damper along the line.
     Damper,
-    /// The links are not copies under one link.
+    /// The links are not copies of one node under one link.
     OtherLinks,
-    /// The points are not at the same place of both copies, or these do not hang from one pivot.
+    /// The points differ between the two copies, or the copies do not hang from one pivot.
     OtherPlaces,
-    /// Other copies under the link are not tied to each other likewise.
+    /// The spring does not connect all pairs of the copies under the link.
     SomeCopies,
 }
 
@@ -239,43 +247,45 @@ impl NoChord {
         match self {
             Self::Guy => "ends on the ground",
             Self::Repulsion => "repels or attracts by a power of the distance",
-            Self::Rest => "has a length at rest",
+            Self::Rest => "has a rest length",
             Self::Damper => "has a damper",
             Self::OtherLinks => "not between copies under one link",
-            Self::OtherPlaces => "not between equal places of copies on one pivot",
-            Self::SomeCopies => "not the same between every two of the copies",
+            Self::OtherPlaces => "not between the same point of copies on one pivot",
+            Self::SomeCopies => "not equal between every two of the copies",
         }
     }
 }
 
-/// Use of a tree that copies which differ stand against.
+/// Requests that require equal copies.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum UnequalUse {
-    /// An order of the transfer.
+    /// A truncated form of the transfer.
     Order,
-    /// The budget of sectors.
+    /// The energy budget of sectors.
     Budget,
-    /// Copies in phase or joints that are locked.
+    /// Copies that move in phase, or locked joints.
     Reduction,
 }
 
 impl UnequalUse {
     fn refusal(self) -> &'static str {
         match self {
-            Self::Order => "truncated forms of W need equal copies",
-            Self::Budget => "sectors of unequal copies have no budget",
+            Self::Order => "truncated forms of the transfer need equal copies",
+            Self::Budget => "a budget of sectors needs equal copies",
             Self::Reduction => "`in_phase` and `locked` need a tree of equal copies",
         }
     }
 
     fn hint(self) -> &'static str {
         match self {
-            Self::Order => "write `transfer(exact)`, which splits W into growth and forcing",
-            Self::Budget => {
-                "write `transfer(exact)` for copies without children, or `observe(...)` for \
-                 energies of your own"
+            Self::Order => {
+                "write `transfer(exact)`, which splits the transfer into growth and forcing"
             }
-            Self::Reduction => "leave this out, or `each(...)`",
+            Self::Budget => {
+                "write `transfer(exact)` for copies without children, or define energies yourself \
+                 by `observe(...)`"
+            }
+            Self::Reduction => "leave this or `each(...)` out",
         }
     }
 }

@@ -1,57 +1,62 @@
-//! Messages about a description: how large it is and what can be derived of it.
+//! Messages about the size of a tree, and about a derivation that fails.
 
 use super::Problem;
 
 messages! {
-    /// A mistake in a description: how large it is and what can be derived of it.
+    /// The tree is too large, or its equations cannot be derived.
     SizeMessage as Size:
 
-    /// Code in loops for something that it does not do.
+    /// Code in loops is requested together with something that it does not support.
     NoLoops { what: String } => (
-        format!("no loops with {what}"),
-        "this cannot be in loops",
-        "leave `code = loops` out, or what it does not go with; loops compute \
+        format!("code in loops does not support {what}"),
+        "cannot be computed in loops",
+        "leave out `code = loops`, or the part that it does not support; loops compute \
          accelerations and energies",
     ),
-    /// More links than can be expanded, of a rule whose code cannot be loops.
+    /// A generation rule has too many links to be written out, and its code cannot be loops.
     TooManyForUnrolled { what: String, limit: usize } => (
-        format!("more than {limit} links with {what}"),
-        "too many to be written out",
-        "leave that out: loops over generations compute accelerations and energies \
-         of any number of links; or use fewer generations or branches",
+        format!("more than {limit} links cannot be combined with {what}"),
+        "too many links to be written out",
+        format!(
+            "leave out {what}: without it the code is loops over generations, which compute \
+             accelerations and energies of any number of links; or use fewer generations or \
+             branches"
+        ),
     ),
-    /// More links than can be expanded.
+    /// The tree has too many links to be expanded.
     TooManyLinks { limit: usize } => (
-        format!("more than {limit} links"),
-        "too many with this one",
+        format!("the tree has more than {limit} links"),
+        "exceeds the limit",
         "use fewer generations, branches or copies",
     ),
-    /// More pairs of a link and one above it than can be written out.
+    /// The tree has too many pairs of a link and one of its ancestors to be written out.
     TooManyPairs { pairs: usize, limit: usize } => (
         format!(
-            "a tree too large to be written out: {pairs} pairs of a link and one above"
+            "the tree is too large to be written out: {pairs} pairs of a link and one of its \
+             ancestors"
         ),
         format!("at most {limit} pairs"),
-        "large trees get loops where accelerations and energies alone are asked for; or \
-         use fewer links or shorter chains",
+        "request accelerations and energies only, so that a large tree gets loops, or use fewer \
+         links or shorter chains",
     ),
-    /// Formulas longer than the derivation goes on with.
+    /// The formulas exceed the number of terms at which the derivation stops.
     TooManyTerms { limit: u64 } => (
-        "formulas too long to be derived",
+        "the formulas are too long to be derived",
         format!("more than {limit} terms"),
-        "ask for less at once: lower orders, fewer outputs, simpler observables, or a \
-         smaller tree",
+        "request less at once: lower orders, fewer outputs, simpler observables, or a smaller \
+         tree",
     ),
-    /// More values in the code than are written.
+    /// The code would have too many values.
     TooManyValues { limit: usize } => (
-        "code too long to be written",
+        "the code is too long to be emitted",
         format!("more than {limit} values"),
-        "ask for less at once: fewer outputs or forms, lower orders, or a smaller tree",
+        "request less at once: fewer outputs or forms, lower orders, or a smaller tree",
     ),
-    /// The derivation could not be run.
+    /// The computer algebra could not be run.
     Algebra { reason: String } => (
         "the mechanics could not be derived",
         reason.as_str(),
-        "commit the expansion made by the tool `branched-pendulum` where the derivation cannot run",
+        "if the derivation cannot run here, commit the expansion that \
+         `cargo branched-pendulum expand` writes",
     ),
 }

@@ -1,181 +1,188 @@
-//! Messages about a description: its tokens, the struct and the settings.
+//! Messages about the tokens of a description, the struct and the settings.
 
 use super::{Problem, suggest};
 use crate::report::SceneSetting;
 
 messages! {
-    /// A mistake in a description: its tokens, the struct and the settings.
+    /// A mistake in the tokens of a description, the struct or the settings.
     SyntaxMessage as Syntax:
 
-    /// Text that has no tokens of Rust.
+    /// The text cannot be split into Rust tokens.
     NoTokens => (
-        "unreadable text",
-        "no token starts here, or brackets do not match",
+        "the text cannot be split into Rust tokens",
+        "invalid token, or unbalanced brackets",
         "write a description as in `gravity = 9.80665, rod: rod(mass = 1, length = 1)`",
     ),
-    /// Another token should stand here.
+    /// Another token was expected.
     Expected { what: &'static str, found: String } => (
-        format!("expected {what}"),
-        format!("`{found}` stands here"),
-        format!("in place of `{found}` write {what}"),
+        format!("expected {what}, found `{found}`"),
+        "unexpected",
+        format!("write {what}"),
     ),
-    /// Neither a link nor a setting.
+    /// The member is neither a link nor a setting.
     NotAnEntry { found: String } => (
-        "expected a link or a setting",
-        format!("`{found}` stands here"),
+        format!("expected a link or a setting, found `{found}`"),
+        "neither a link nor a setting",
         format!(
-            "write a link as in `rod: rod(mass = 0.2, length = 1)`, of which copies stand behind \
-             it, as in `child(...) * 2`; settings are {}",
+            "write a link as in `rod: rod(mass = 0.2, length = 1)`, with a number of copies as in \
+             `child(...) * 2`, or a setting: {}",
             SceneSetting::listed(),
         ),
     ),
-    /// A description between quotes.
+    /// The description is a string literal.
     Quoted => (
-        "the description is a string",
-        "quotes",
-        "write its tokens without quotes: `gravity = 9.80665, rod: rod(mass = 0.2, length = 1)`",
+        "the description is a string literal",
+        "in quotes",
+        "remove the quotes: `gravity = 9.80665, rod: rod(mass = 0.2, length = 1)`",
     ),
-    /// A name without anything behind it.
+    /// Nothing follows a name.
     LoneName { name: String } => (
-        format!("`{name}` stands alone"),
-        "neither a link nor a setting",
+        format!("`{name}` is neither a link nor a setting"),
+        "a name alone",
         format!("write a link with its shape, as in `{name}: rod(mass = 0.2, length = 1)`"),
     ),
-    /// `=` between a link and its shape.
+    /// `=` instead of `:` between a link and its shape.
     LinkByEquals { link: String, shape: String } => (
-        format!("`=` between the link `{link}` and its shape"),
-        "`:` stands here",
+        format!("expected `:` between the link `{link}` and its shape, found `=`"),
+        "expected `:`",
         format!("write `{link}: {shape}(...)`"),
     ),
-    /// A number of copies that is no whole number.
+    /// The number of copies is not a whole number.
     NotCopies { found: String } => (
-        "the number of copies is not a whole number",
-        format!("`{found}` stands here"),
-        "write a literal, as in `child(...) * 2`: the number of links is part of the code",
+        format!("the number of copies is not a whole number: `{found}`"),
+        "expected a whole number",
+        "write a number, as in `child(...) * 2`: the number of links is fixed in the code",
     ),
-    /// `:` where a value follows.
+    /// `:` instead of `=` before a value.
     Colon { name: String } => (
-        format!("`:` behind `{name}`"),
-        "a value follows `=`",
-        format!("write `{name} = ...`; `:` stands between a link and its shape only"),
+        format!("expected `=` after `{name}`, found `:`"),
+        "expected `=`",
+        format!("write `{name} = ...`; `:` separates only a link and its shape"),
     ),
-    /// Brackets of the wrong kind.
+    /// A list has brackets of the wrong kind.
     Brackets { what: &'static str, wanted: &'static str } => (
-        format!("{what} in the wrong brackets"),
-        format!("{what} stand in `{wanted}`"),
+        format!("the {what} are in the wrong brackets"),
+        format!("expected `{wanted}`"),
         "write `parent(mass = 0.1, ...) [ child(...), ... ]`",
     ),
-    /// Two members of a list without a comma between them.
+    /// The comma between two members of a list is missing.
     MissingComma { before: String } => (
-        format!("no comma before `{before}`"),
+        format!("missing comma before `{before}`"),
         "the next member of the list",
         format!("write `, {before}`"),
     ),
-    /// A unit behind a number.
+    /// A unit follows a number.
     Unit { unit: String } => (
-        format!("the unit `{unit}` behind a number"),
+        format!("a number is followed by the unit `{unit}`"),
         "units are not written",
-        "write the number alone, in SI units: kg, m, s and what is formed of them",
+        "write the number alone, in SI units: kg, m, s and units derived from them",
     ),
-    /// The list ends too early.
+    /// A list ends before the expected token.
     Ended { what: &'static str } => (
-        format!("expected {what}"),
-        "missing before this",
+        format!("expected {what}, found the end of the list"),
+        "ends here",
         format!("write {what}"),
     ),
     /// Brackets or parentheses nested too deeply.
     Nesting { limit: usize } => (
-        format!("more than {limit} levels of brackets"),
+        format!("brackets are nested more than {limit} levels deep"),
         "too deep",
-        "write long chains by rule: `chain: generations(count = 100, ...)`",
+        "describe a long chain by a rule: `chain: generations(count = 100, ...)`",
     ),
-    /// The attribute stands on something else than a struct.
+    /// The runtime crate has another name in this package.
+    RenamedCrate { name: String } => (
+        format!("the crate `branched_pendulum` is called `{name}` here"),
+        "the emitted code needs the name of the crate",
+        format!("write `crate = ::{name}` into the attribute"),
+    ),
+    /// The attribute is not on a struct.
     NotAStruct => (
-        "the attribute stands on something else than a struct",
+        "the attribute is not on a struct",
         "not a struct",
         "put it on a struct without fields: `pub struct Pendulum;`",
     ),
     /// The struct has fields.
     StructFields { name: String } => (
         format!("struct `{name}` has fields"),
-        "must be without fields",
-        format!("write `struct {name};`, the fields follow from the description"),
+        "expected a struct without fields",
+        format!("write `struct {name};`: the attribute generates the fields"),
     ),
-    /// The struct has generic parameters.
+    /// The struct has generic parameters or a where clause.
     StructGenerics { name: String } => (
         format!("struct `{name}` is generic"),
-        "must be without parameters",
-        format!("write `struct {name};`, its functions are generic over the scalar"),
+        "expected a struct without generic parameters",
+        format!("write `struct {name};`: its functions are generic over the scalar type"),
     ),
-    /// `Default` among the derives of a struct of which the attribute writes it.
+    /// `Default` is derived for a struct for which the attribute implements it.
     DefaultDerived => (
-        "`Default` is derived, and the attribute writes it too",
-        "written by the attribute",
-        "leave it out of `derive(...)`: a model without parameters is `Default`; every model is \
+        "`Default` is derived, but the attribute implements it already",
+        "implemented by the attribute",
+        "remove it from `derive(...)`: a model without parameters is `Default`; every model is \
          `Clone`, `Debug` and `PartialEq`, and `Copy` unless its code is loops, derived or not",
     ),
-    /// `Default` among the derives of a struct with parameters.
+    /// `Default` is derived for a struct with parameters.
     DefaultOfParameters => (
         "`Default` is derived for a model with parameters",
         "would set masses and lengths to zero",
-        "leave it out of `derive(...)`, and build the model with `new` from its parameters",
+        "remove it from `derive(...)`, and create the model from its parameters with `new`",
     ),
-    /// `Copy` among the derives of a struct whose code is loops.
+    /// `Copy` is derived for a struct whose code is loops.
     CopyInLoops => (
         "`Copy` is derived for a model whose code is loops",
-        "holds its constants on the heap",
-        "leave it out of `derive(...)`, or ask for `code = unrolled`; `Clone` is there",
+        "this model stores its constants on the heap",
+        "remove it from `derive(...)` and use `Clone`, or write `code = unrolled`",
     ),
-    /// An unknown setting of the scene.
+    /// The scene has no setting of this name.
     UnknownEntry { name: String, nearest: Option<&'static str> } => (
         format!("unknown setting `{name}`"),
         "not a setting of the scene",
         suggest(nearest, format!("settings are {}", SceneSetting::listed())),
     ),
-    /// A setting with parentheses in place of `=`, or the other way round.
+    /// A setting has parentheses instead of `=`, or `=` instead of parentheses.
     SettingForm { setting: &'static SceneSetting } => (
-        format!("expected `{}` behind `{}`", setting.mark(), setting.name),
-        "something else stands there",
+        format!("expected `{}` after `{}`", setting.mark(), setting.name),
+        "found something else",
         format!("write it as in `{}`", setting.example),
     ),
-    /// No gravity.
+    /// The description does not set gravity.
     MissingGravity => (
         "gravity is missing",
-        "described without `gravity`",
+        "no `gravity` in this description",
         "write `gravity = 9.80665`, in m/s²",
     ),
-    /// A property or setting given twice.
+    /// A property or setting is given twice.
     DuplicateProperty { name: String } => (
         format!("`{name}` is given twice"),
-        "given before",
+        "already given",
         "keep one of them",
     ),
-    /// A way to write code that is none.
+    /// The value of `code` is neither `loops` nor `unrolled`.
     NotACode => (
         "`code` is neither `loops` nor `unrolled`",
-        "not a way to write code",
-        "write `code = loops`, `code = unrolled`, or nothing: large trees get loops",
+        "unknown value",
+        "write `code = loops` or `code = unrolled`, or leave it out: large trees get loops",
     ),
-    /// A way to solve that does not exist.
+    /// The value of `solve` is not a method of solving for the accelerations.
     UnknownSolve { name: String, nearest: Option<&'static str> } => (
-        format!("unknown way to solve `{name}`"),
-        "no way to solve for the accelerations",
+        format!("unknown value `{name}` of `solve`"),
+        "not a method of solving for the accelerations",
         suggest(
             nearest,
-            "`factorization` or `recursion`; without `solve` the one of fewer operations",
+            "write `solve = factorization` or `solve = recursion`, or leave it out: the method \
+             with fewer operations is chosen",
         ),
     ),
 }
 
 impl SyntaxMessage {
-    /// A property or setting given twice.
+    /// Creates the message that a property or setting is given twice.
     pub fn duplicate_property(name: &impl ToString) -> Self {
         Self::DuplicateProperty {
             name: name.to_string(),
         }
     }
 
-    /// An unknown setting of the scene.
+    /// Creates the message that a setting is unknown, with the most similar known name.
     pub fn unknown_entry(name: String) -> Self {
         let nearest = SceneSetting::nearest(&name).map(|setting| setting.name);
         Self::UnknownEntry { name, nearest }

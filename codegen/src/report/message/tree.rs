@@ -1,41 +1,41 @@
-//! Messages about a description: its links and their names.
+//! Messages about the links of a description and their names.
 
 use super::{Problem, listed, suggest};
 
 messages! {
-    /// A mistake in a description: its links and their names.
+    /// A mistake in the links of a description or in their names.
     TreeMessage as Tree:
 
-    /// No link.
+    /// The description has no link.
     EmptyTree => (
-        "there is no link",
-        "has nothing that could swing",
+        "the description has no link",
+        "no link here",
         "write one, as in `bob: point(mass = 0.1, length = 0.3)`",
     ),
-    /// A second link at the top level.
+    /// There is a second link at the top level.
     SecondRoot { first: String } => (
-        "there is more than one root",
-        format!("hangs beside `{first}`"),
+        "the description has more than one root",
+        format!("a second root, after `{first}`"),
         format!(
-            "a description is one tree: hang it from a link, as in `{first}(...) [ ... ]`, \
-             or give it an attribute of its own; for pendulums that act on each other \
-             otherwise see `docs/limits.md`"
+            "a description is one tree: put this link below another one, as in \
+             `{first}(...) [ ... ]`, or give it a separate attribute; for pendulums coupled in \
+             other ways see `docs/limits.md`"
         ),
     ),
-    /// Several copies of the root.
+    /// The root has several copies.
     RootCopies => (
         "the root has several copies",
         "copies of the root do not act on each other",
-        "leave out the multiplicity and run the model several times",
+        "leave out the number of copies, and run the model several times",
     ),
-    /// A name that already means something else.
+    /// A name is already used for something else.
     DuplicateName { name: String } => (
-        format!("the name `{name}` is taken"),
+        format!("the name `{name}` is already used"),
         "second use of the name",
-        "links, copies `name_1`, `name_2`, ..., groups, parameters and observables need \
-           names of their own",
+        "choose another name: links, copies `name_1`, `name_2`, ..., groups, parameters and \
+         observables must all differ",
     ),
-    /// A keyword, or a name that the emitted code uses.
+    /// A name is a keyword, or the emitted code uses it.
     ReservedName { name: String } => (
         format!("the name `{name}` is reserved"),
         "used by Rust or by the emitted code",
@@ -44,7 +44,7 @@ messages! {
             false => format!("choose another, as in `my_{name}`"),
         },
     ),
-    /// A name that is no snake-case identifier.
+    /// A name is not a snake-case identifier.
     NotSnakeCase { name: String, suggestion: Option<String> } => (
         format!("`{name}` is not a snake-case name"),
         "becomes part of names in the emitted code",
@@ -54,28 +54,28 @@ messages! {
                 .to_owned(),
         },
     ),
-    /// A shape that is not in the table.
+    /// The shape does not exist.
     UnknownShape { name: String, nearest: Option<&'static str>, known: Vec<&'static str> } => (
         format!("unknown shape `{name}`"),
         "not a shape",
         suggest(nearest, format!("shapes are {}", listed(known))),
     ),
-    /// A shape where the name of a link stands.
+    /// A shape is written without the name of a link before it.
     ShapeWithoutName { shape: &'static str } => (
-        format!("the shape `{shape}` without the name of a link"),
+        format!("the shape `{shape}` has no name of a link before it"),
         "a shape",
         format!("write a name before the shape: `{shape}: {shape}(...)`"),
     ),
-    /// A property that only shapes have, on a link without one.
+    /// A link without a shape has a property that only shapes have.
     ShapeForgotten { link: String, property: &'static str, shape: &'static str } => (
         format!("`{link}` has a `{property}`, but no shape"),
         "no shape",
         format!(
-            "write a shape behind the name, as in `{link}: {shape}(...)`; without one a link has \
-             `mass`, `com` and `inertia`"
+            "write a shape after the name, as in `{link}: {shape}(...)`; a link without a shape \
+             has `mass`, `com` and `inertia`"
         ),
     ),
-    /// A property that the body does not have.
+    /// A body of this kind has no such property.
     UnknownProperty {
         name: String,
         body: String,
@@ -86,227 +86,240 @@ messages! {
         "unknown property",
         suggest(nearest, format!("{body} has {}", listed(known))),
     ),
-    /// A property that the body needs.
+    /// A required property of the body is missing.
     MissingProperty { name: &'static str, link: String, body: String } => (
         format!("`{link}` has no `{name}`"),
-        "property missing",
+        "missing property",
         format!("{body} needs it: write `{name} = ...`{}", unit_note(name)),
     ),
-    /// Children without a place to hang.
+    /// The link has children, but no position at which they hang.
     MissingJoint { link: String } => (
-        format!("`{link}` does not say where its children hang"),
+        format!("`{link}` has no point from which its children hang"),
         "no `joint`",
         "write `joint = ...`, the distance from its pivot in m, or give each child \
            an `at = ...`",
     ),
-    /// `at` on the root.
+    /// The root has the property `at`, a position on a parent.
     RootPivot => (
-        "the root does not hang from a link",
-        "`at` is a place on the parent",
+        "the root has an `at`, but no parent",
+        "`at` is a point on the parent",
         "leave it out: the root's pivot is the origin",
     ),
-    /// A rest angle, or a length at rest, without a spring.
+    /// A rest angle or rest length is given without a spring.
     RestWithoutSpring { link: String, unit: &'static str } => (
         match *unit {
-            "N/m" => format!("`{link}` has a length at rest, but no spring"),
+            "N/m" => format!("`{link}` has a rest length, but no spring"),
             _ => format!("`{link}` has a rest angle, but no spring"),
         },
-        "nothing is at rest here",
+        "no spring to be at rest",
         format!("add `spring = ...`, the spring's stiffness in {unit}, or leave `rest` out"),
     ),
-    /// A width of friction without a law that has one.
+    /// A smoothing width of friction is given, but no friction law that uses one.
     IdleWidth { link: String } => (
-        format!("`{link}` has a width of friction, but nothing that it smooths"),
+        format!("`{link}` has a smoothing width, but no Coulomb or quadratic friction"),
         "viscous friction has no width",
         "add `coulomb = ...` in N m or `quadratic = ...` in N m s², or leave `width` out",
     ),
-    /// Drag of a locked link with another width than that of the link that holds it.
+    /// Drag of a locked link has a smoothing width other than that of the link that it is locked
+    /// to.
     LockedWidth { link: String } => (
-        format!("drag of `{link}` has another width than that of the link it is locked to"),
-        "two widths for one link",
+        format!("the drag of `{link}` has another width than the link that it is locked to"),
+        "two widths for one body",
         "give both links the same `width`",
     ),
-    /// Children of a generation rule.
+    /// A generation rule is given further children.
     RuleChildren => (
-        "a generation rule has no other children",
-        "the rule makes all children",
+        "a generation rule cannot have other children",
+        "the rule creates all children",
         "leave out the brackets, or write the tree link by link",
     ),
-    /// A pair where a single value is needed.
+    /// A pair is given instead of a single value.
     NotAPoint { name: String } => (
-        format!("`{name}` is a single value"),
+        format!("`{name}` is a pair instead of a single value"),
         "a pair",
-        "only `com`, `joint` and `at` can be pairs `(along, lateral)`",
+        "write one number; only `com`, `joint` and `at` can be pairs `(along, lateral)`",
     ),
-    /// Not a whole number of at least 1.
+    /// The value is not a whole number of at least 1.
     NotACount { name: String } => (
         format!("`{name}` is not a whole number of at least 1"),
-        "not a count",
-        format!("write a literal: `{name} = 3`"),
+        "expected a whole number",
+        format!("write a number: `{name} = 3`"),
     ),
-    /// Not the name of a shape.
+    /// `open` is given in a rule that cannot have one open branching per generation.
+    OpenBranching { needs: &'static str } => (
+        format!("`open` needs {needs}"),
+        "one branching of each generation cannot be open here",
+        "write `generations(count = 20, branching = 2, open = 1, ...)`: of each generation one \
+         branching into two links is open, and all other copies move in phase",
+    ),
+    /// The value of `shape` is not a name.
     NotAShape => (
-        "`shape` is not the name of a shape",
-        "not a name",
+        "the value of `shape` is not the name of a shape",
+        "expected a name",
         "write `shape = rod`",
     ),
-    /// A link that can turn without kinetic energy.
+    /// The link can turn without kinetic energy.
     Singular { link: String } => (
         format!("`{link}` can turn without kinetic energy"),
         "makes the mass matrix singular",
         "give it mass away from its pivot or a moment of inertia",
     ),
-    /// No copies.
+    /// The number of copies is zero.
     ZeroCopies => (
-        "zero copies",
-        "leaves no link",
+        "the number of copies is zero",
+        "no link remains",
         "write `* 1` or more, or leave the link out",
     ),
-    /// A reduction that names no link of the description.
+    /// `in_phase`, `locked` or `prescribed` names a link that does not exist.
     UnknownNode { name: String, nearest: Option<String> } => (
         format!("no link is called `{name}`"),
         "not a link of this description",
         suggest(nearest, "write the name of a link of the description"),
     ),
-    /// Copies that should move alike where there are none.
+    /// `in_phase` names a link without copies.
     NothingInPhase { name: String } => (
-        format!("nothing to move alike: `{name}` has no copies"),
+        format!("`{name}` has no copies that could move in phase"),
         "no copies",
         "leave it out, or write copies as in `child(...) * 2`",
     ),
-    /// A clause of prescribed links without any.
+    /// `prescribed()` names no link.
     NothingPrescribed => (
         "`prescribed()` names no link",
         "no link",
-        "write the links whose motion is handed over, as in `prescribed(arm)`",
+        "name the links whose motion the caller prescribes, as in `prescribed(arm)`",
     ),
-    /// A spring or friction between links beside copies in phase.
-    SpringDamperInPhase { what: String } => (
-        format!("`{what}` beside `in_phase(...)`"),
-        "a link in phase stands for several",
-        "leave `in_phase(...)` out: copies that start in phase stay so; what acts between the \
-         copies of a node, `siblings(...)`, goes with it",
+    /// A spring or friction between links is combined with copies in phase.
+    SpringDamperInPhase { what: String, setting: &'static str } => (
+        format!("`{what}` cannot be combined with `{setting}`"),
+        "a link in phase represents several links",
+        format!(
+            "leave `{setting}` out: copies that start in phase stay in phase; a spring between the \
+             copies of a node, `siblings(...)`, can be combined with it"
+        ),
     ),
-    /// Copies of a node beside links that do not move in their joints.
+    /// A spring or friction between the copies of a node is combined with locked joints.
     SiblingsBesideLock { what: String } => (
-        format!("`{what}` beside `locked(...)`"),
+        format!("`{what}` cannot be combined with `locked(...)`"),
         "copies of locked links hang from one link",
-        "write `between(a, b, ...)` for each two copies",
+        "write `between(a, b, ...)` for every two copies",
     ),
-    /// Not two links between which something acts.
+    /// `between(...)` does not name exactly two links.
     NotTwoLinks => (
         "`between(...)` does not name two links",
-        "not two links",
-        "write two links, then what acts between them, as in `between(left, right, spring = 0.1)`",
+        "expected two links",
+        "name two links, then the spring or friction between them, as in \
+         `between(left, right, spring = 0.1)`",
     ),
-    /// Not one node whose copies something acts between.
+    /// `siblings(...)` does not name exactly one node.
     NotOneNode => (
         "`siblings(...)` does not name one node",
-        "not one node",
-        "write the node, then what acts between its copies, as in `siblings(child, spring = 0.1)`",
+        "expected one node",
+        "name the node, then the spring or friction between its copies, as in \
+         `siblings(child, spring = 0.1)`",
     ),
-    /// A node without copies.
+    /// `siblings(...)` names a node without copies.
     NoSiblings { name: String } => (
         format!("`{name}` has no copies"),
-        "no siblings",
+        "no copies",
         "write copies as in `child(...) * 2`, or `between(a, b, ...)` for links of other names",
     ),
-    /// A spring-damper with neither spring nor friction.
+    /// A torsion spring-damper has neither a spring nor friction.
     IdleSpringDamper { what: String } => (
         format!("`{what}` has neither spring nor friction"),
-        "nothing acts",
-        "write `spring = ...` in N m or `friction = ...` in N m s behind the links",
+        "has no effect",
+        "write `spring = ...` in N m or `friction = ...` in N m s after the links",
     ),
-    /// A line along which nothing acts.
+    /// A straight spring has neither a spring, friction nor a repulsion.
     IdleStraightSpring { what: String } => (
-        format!("`{what}` has neither spring nor friction"),
-        "nothing acts",
+        format!("`{what}` has neither spring, friction nor repulsion"),
+        "has no effect",
         "write `spring = ...` in N/m, `friction = ...` in N s/m, or `repulsion = ...` and its \
-         `exponent = ...` behind the links",
+         `exponent = ...` after the links",
     ),
-    /// A power of the distance without a law that has one.
+    /// An exponent is given without the repulsion that it belongs to.
     IdleExponent { what: String } => (
         format!("`{what}` has an exponent, but no repulsion"),
-        "a power of no law",
+        "no repulsion uses it",
         "add `repulsion = ...`, the strength A of the energy A/ℓⁿ at the distance ℓ, or leave \
          `exponent` out",
     ),
-    /// A power of the distance that no law has.
+    /// The exponent of a repulsion is not a whole number in the accepted range.
     NotAnExponent { what: String, largest: u32 } => (
         format!("the exponent of `{what}` is not a whole number from 1 to {largest}"),
-        "not such a number",
+        format!("expected a whole number from 1 to {largest}"),
         "write the power n of the energy A/ℓⁿ at the distance ℓ as a number, as in \
          `repulsion = 1e-5, exponent = 3` for dipoles across the plane",
     ),
-    /// Points of a straight spring that are not one for each link.
+    /// The attachment points of a straight spring do not match its links one to one.
     NotTwoPoints { what: String } => (
-        format!("`each(...)` does not name a point of each link of `{what}`"),
-        "not a point for each link",
-        "write `at = 0.3` for the same place on all links, or in `between(a, b, ...)` \
+        format!("`each(...)` does not give one point for each link of `{what}`"),
+        "expected one point for each link",
+        "write `at = 0.3` for the same point of all links, or in `between(a, b, ...)` \
          `at = each(0.3, 0.2)`: a distance along `a`, then one along `b`",
     ),
-    /// A guy that is tied to no place.
+    /// The fixed end of a guy is not a pair of coordinates.
     NotAPeg => (
-        "`to` is not a place",
-        "not a pair",
+        "`to` is not a point",
+        "expected a pair",
         "write `to = (0.4, 0)`: x and y in m from the root's pivot, y upwards",
     ),
-    /// Not one link that a guy holds.
+    /// `guy(...)` does not name exactly one link.
     NotOneLink => (
         "`guy(...)` does not name one link",
-        "not one link",
-        "write the link, then what holds it, as in \
+        "expected one link",
+        "name the link, then the properties of the guy, as in \
          `guy(mast, at = 0.3, to = (0.4, 0), spring = 60, rest = 0.5)`",
     ),
-    /// A straight spring beside links that do not move by themselves.
+    /// A straight spring is combined with copies in phase or locked joints.
     StraightSpringInReduction { what: String, noun: &'static str, reduction: &'static str } => (
-        format!("`{what}` between points beside `{reduction}(...)`"),
-        "no points of links that are merged",
+        format!("`{what}` between points cannot be combined with `{reduction}`"),
+        "merged links have no separate points",
         format!(
-            "leave `{reduction}(...)` out, or hand over the {noun}'s forces by \
+            "leave `{reduction}` out, or compute the {noun}'s forces yourself with \
              `emit(positions, forces)`"
         ),
     ),
-    /// A guy beside a pivot that the drive moves.
+    /// A guy is combined with a drive that moves the pivot.
     GuyBesideMotion { what: String } => (
-        format!("`{what}` beside a drive that moves the pivot"),
-        "the peg stays where it is",
-        "leave `x` and `y` out of `drive(...)`, or hand over the guy's force by \
+        format!("`{what}` cannot be combined with a drive that moves the pivot"),
+        "its fixed end would not move with the pivot",
+        "leave `x` and `y` out of `drive(...)`, or compute the guy's force yourself with \
          `emit(positions, forces)`",
     ),
-    /// A straight spring between points that keep their distance.
+    /// A straight spring connects two points whose distance cannot change.
     RigidLine { what: String } => (
-        format!("the points of `{what}` keep their distance"),
-        "nothing stretches",
-        "write another `at = ...`: no angle moves these points against each other",
+        format!("the distance between the points of `{what}` cannot change"),
+        "never stretches",
+        "write another `at = ...`: no angle moves these points relative to each other",
     ),
-    /// The root as a joint that does not move.
+    /// The root is locked.
     LockedRoot => (
         "the root cannot be locked",
         "hangs from the ground",
-        "describe the links below it as the tree, each tree by itself",
+        "describe the links below it as separate trees",
     ),
-    /// A generation of a tree in loops as a joint that does not move.
+    /// A link of a generation rule in loops is locked.
     LockedGeneration { link: String } => (
-        format!("`{link}` cannot be locked in a tree that is taken through loops"),
+        format!("`{link}` cannot be locked in a tree whose code is loops"),
         "a generation of a rule",
         "write `code = unrolled` among the properties of the rule",
     ),
-    /// Friction or a spring in a joint that does not move.
+    /// A locked joint has friction or a spring.
     IdleJoint { link: String, property: &'static str } => (
-        format!("{property} of `{link}` does nothing in a joint that does not move"),
-        "locked",
-        format!("leave out {property}, or the lock"),
+        format!("{property} of `{link}` has no effect in a locked joint"),
+        "the joint is locked",
+        format!("leave out {property}, or do not lock the joint"),
     ),
-    /// The angle of a joint that does not move is no number of radians.
+    /// The angle of a locked joint is not a number of radians in the accepted range.
     LockedAngle => (
-        "the angle of a locked joint is not a number of radians between -7 and 7",
-        "not such a number",
-        "write the angle to the link above in radians, as in `locked(arm, 0.3)`",
+        "the angle of a locked joint is not a number of radians from -7 to 7",
+        "expected a number from -7 to 7",
+        "write the angle relative to the parent in radians, as in `locked(arm, 0.3)`",
     ),
 }
 
-/// The unit of a property, where it has one.
+/// Returns the unit of a property, or the meaning of its value, for the end of a hint; empty if it
+/// has none.
 fn unit_note(name: &str) -> &'static str {
     match name {
         "mass" | "bob_mass" => ", in kg",

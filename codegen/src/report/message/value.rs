@@ -1,96 +1,106 @@
-//! Messages about a description: its values and the drive.
+//! Messages about the values of a description and the drive.
 
 use super::{Problem, suggest};
 
 messages! {
-    /// A mistake in a description: its values and the drive.
+    /// A mistake in the values of a description or in the drive.
     ValueMessage as Value:
 
-    /// A name of something else as a parameter, as in `joint = prismatic`.
+    /// A parameter has the name of something that is not a parameter, as in `joint = prismatic`.
     Lookalike { name: String, kind: Lookalike } => (
-        format!("`{name}` as a parameter"),
-        format!("reads like {}", kind.words()),
+        format!("`{name}` is used as a parameter"),
+        format!("looks like {}", kind.words()),
         kind.hint(),
     ),
-    /// A value that is infinite or no number.
+    /// A value names a constant of the surrounding Rust code, by a path or in capital letters.
+    RustConstant { name: String } => (
+        format!("`{name}` cannot be read as a value"),
+        match name.contains("::") {
+            true => "constants of Rust are not seen here",
+            false => "parameters have small letters, and constants of Rust are not seen here",
+        },
+        "write the number itself, as in `gravity = 9.80665`, or a parameter in small letters, as in \
+         `gravity = g`, which gets its value when the program runs",
+    ),
+    /// The value is infinite or NaN.
     NotFinite { name: String } => (
         format!("`{name}` is not a finite number"),
-        "no value of a pendulum",
+        "expected a finite number",
         "write a number, or the name of a parameter",
     ),
-    /// A name that is no declared parameter.
+    /// A name is not among the declared parameters.
     UndeclaredParameter { name: String, nearest: Option<String> } => (
-        format!("`{name}` is not declared"),
+        format!("the parameter `{name}` is not declared"),
         "not in `parameters(...)`",
         suggest(nearest, format!("add `{name}` to `parameters(...)`, or write a number")),
     ),
-    /// A declared parameter that no value names.
+    /// A declared parameter is not used in any value.
     UnusedParameter { name: String } => (
         format!("the parameter `{name}` is never used"),
-        "no value names it",
-        "leave it out of `parameters(...)`, or use it",
+        "no value uses it",
+        "remove it from `parameters(...)`, or use it",
     ),
-    /// A value below zero that must not be.
+    /// The value is negative but must be at least zero.
     Negative { what: String, value: String } => (
         format!("{what} is negative"),
         format!("this is {value}"),
         "write a value that is zero or above",
     ),
-    /// A value that must be above zero.
+    /// The value must be positive.
     NotPositive { what: String, value: String } => (
         format!("{what} is not positive"),
         format!("this is {value}"),
         "write a value above zero",
     ),
-    /// A value of a magnitude that no pendulum has.
+    /// The magnitude of the value is outside the accepted range.
     Magnitude { what: String, value: String, range: &'static str } => (
         format!("{what} is too large or too small"),
         format!("this is {value}"),
         format!("write a value that is {range}; units are SI"),
     ),
-    /// A divisor that is zero.
+    /// A divisor is zero.
     DivisionByZero => (
         "division by zero",
         "this is zero",
         "write a divisor other than zero",
     ),
-    /// A literal that is no plain decimal number.
+    /// A literal is not a plain decimal number.
     NotDecimal { text: String } => (
         format!("`{text}` is not a decimal number"),
         "cannot be read",
         "write digits as in `0.27` or `1.88e-3`, without suffix; units are SI",
     ),
-    /// A number that no `f64` can hold.
+    /// A number exceeds the range of `f64`.
     NumberRange => (
         "a number is too large or too small",
-        "no `f64` can hold it",
-        "magnitudes go from 5e-324 to 1.7e308; units are SI",
+        "does not fit an `f64`",
+        "write a magnitude from 5e-324 to 1.7e308; units are SI",
     ),
-    /// A number with too many digits to go on exactly.
+    /// A number has too many digits for exact arithmetic.
     NumberLength => (
-        "too many digits",
+        "a number has too many digits",
         "too long for exact arithmetic",
-        "round it: 17 digits are all that an `f64` keeps",
+        "round it: an `f64` keeps only 17 digits",
     ),
-    /// An exponent that is no small whole number.
+    /// An exponent is not a small whole number.
     Exponent => (
         "the exponent is not a whole number",
-        "not an exponent",
-        "write a literal, as in `length^2` or `length^-1`",
+        "expected a whole number",
+        "write a number, as in `length^2` or `length^-1`",
     ),
-    /// A power of a power without parentheses.
+    /// A power is raised to a power without parentheses.
     ChainedPower => (
-        "a power of a power",
+        "a power is raised to a power without parentheses",
         "ambiguous",
         "write parentheses: `(a^2)^3`",
     ),
-    /// A function in a value.
+    /// A value contains a function.
     FunctionCall { name: String } => (
-        format!("`{name}(...)`: values have no functions"),
-        "values are made of `+ - * / ^`",
-        "compute it beforehand and write the digits, or make it a parameter",
+        format!("a value contains the function `{name}(...)`"),
+        "values can use `+ - * / ^` only",
+        "compute the number and write its digits, or make it a parameter",
     ),
-    /// A function in the drive that does not exist.
+    /// The drive contains an unknown function.
     DriveFunction { name: String, nearest: Option<&'static str> } => (
         format!("unknown function `{name}`"),
         "not a function of a drive",
@@ -99,74 +109,74 @@ messages! {
             "functions are `sin(...)` and `cos(...)`, of angles in rad",
         ),
     ),
-    /// `drive()` without a torque or a motion.
+    /// `drive()` contains neither a torque nor a motion.
     EmptyDrive => (
         "the drive is empty",
         "drives nothing",
         "write `drive(torque = ...)`, or the motion of the root's pivot, \
            `drive(x = ..., y = ...)`",
     ),
-    /// A part of the drive that does not exist.
+    /// The drive has an unknown property.
     UnknownDrive { name: String, nearest: Option<&'static str> } => (
         format!("unknown part `{name}` of the drive"),
         "not a part of the drive",
         suggest(
             nearest,
-            "parts are `torque`, on the root in N m, and `x` and `y`, of its pivot in m",
+            "parts are `torque`, on the root in N m, and `x` and `y`, its pivot's position in m",
         ),
     ),
-    /// A divisor in the drive that depends on time.
+    /// A divisor in the drive depends on time.
     TimeDivisor => (
-        "division by a function",
-        "may vanish at some time",
+        "division by a function of time",
+        "may be zero at some time",
         "divide by numbers and parameters only, so that the drive is finite at all times",
     ),
-    /// `t` where nothing depends on time.
+    /// A value outside the drive contains the time `t`.
     TimeOutsideDrive => (
-        "`t` is the time",
-        "does not depend on time",
-        "only `drive(...)` does; give a parameter another name",
+        "`t` is the time, which only `drive(...)` can use",
+        "cannot depend on time",
+        "give a parameter another name",
     ),
-    /// A mathematical constant without exact value.
+    /// The value is a mathematical constant that has no exact decimal value.
     NotExact { name: String, digits: &'static str } => (
         format!("`{name}` has no exact value"),
         "not a rational number",
         format!("write as many digits as needed: `{digits}`"),
     ),
-    /// Too high a power of parameters.
+    /// The power of parameters is too high.
     Degree { limit: u32 } => (
         "the power of parameters is too high",
-        "makes too many factors",
+        "too many factors",
         format!("powers of parameters go up to {limit}"),
     ),
-    /// A product of masses and lengths that no `f64` can hold.
+    /// A constant of the model, a product of masses and lengths, exceeds the range of `f64`.
     ConstantRange { name: String } => (
         format!("the constant `{name}` of the model is too large or too small"),
-        "no `f64` can hold a constant of this scene",
-        "masses, lengths and gravity multiply: write values in SI units",
+        "a constant of this scene does not fit an `f64`",
+        "it is a product of masses, lengths and gravity: write these in SI units",
     ),
-    /// `each(...)` where there are no copies.
+    /// `each(...)` is given for a link without copies.
     EachWithoutCopies => (
-        "`each(...)` where there are no copies",
-        "one value is enough here",
-        "write the value alone, or copies behind the link: \
+        "`each(...)` is used where there are no copies",
+        "expected a single value",
+        "write the value alone, or add copies to the link: \
            `child(mass = each(0.105, 0.106), ...) * 2`",
     ),
-    /// `each(...)` in a generation rule.
+    /// `each(...)` is given in a generation rule.
     EachInRule { link: String } => (
-        format!("`each(...)` in the generation rule `{link}`"),
+        format!("`each(...)` is used in the generation rule `{link}`"),
         "all links of a generation are equal",
         "write the generations out, each link with its children in `[ ]`",
     ),
-    /// `each(...)` with more or fewer values than copies.
+    /// The number of values in `each(...)` differs from the number of copies.
     EachCount { link: String, copies: usize, values: usize } => (
         format!("`each(...)` needs {copies} values for the {copies} copies of `{link}`"),
-        format!("{values} of them here"),
+        format!("{values} given here"),
         "write one value for each copy, as in `each(0.105, 0.106)` for two",
     ),
 }
 
-/// Kind of thing for which a name is taken where it stands as a parameter.
+/// Meaning that a reader would expect from a name that is used as a parameter.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Lookalike {
     /// A type of joint.

@@ -1,10 +1,10 @@
-//! A committed expansion: what the attribute writes for `scene.rs`, kept as `model.rs`, so
-//! that a crate builds without Symbolica (`branched-pendulum` without its feature `macros`),
-//! also without the standard library.
+//! A committed expansion: the code that the attribute generates for `scene.rs` is stored as
+//! `model.rs`. The crate then builds without Symbolica (`branched-pendulum` without its feature
+//! `macros`), and without the standard library.
 //!
-//! `cargo branched-pendulum expand scene.rs --output model.rs` writes the file, and
-//! `cargo branched-pendulum check scene.rs model.rs` tells when it is no longer what the
-//! compiler writes.
+//! `cargo branched-pendulum expand scene.rs --output model.rs` writes the file, and `cargo
+//! branched-pendulum check scene.rs model.rs` fails if the file differs from what the compiler
+//! writes.
 
 #[rustfmt::skip]
 mod model;

@@ -1,5 +1,5 @@
 // Expanded from scene.rs by `cargo branched-pendulum` 0.1.0. Do not edit.
-//! The scene that `model.rs` is the expansion of.
+//! The scene from which `model.rs` was generated.
 
 #[allow(unused_imports)]
 use branched_pendulum::prelude::*;
@@ -44,9 +44,9 @@ pub struct Rod<T = f64> {
 #[allow(dead_code)]
 #[allow(unreachable_pub, clippy::pedantic, clippy::wrong_self_convention)]
 impl Rod<f64> {
-    /// The model in double precision, its constants rounded once
-    /// from their exact values. `Default` builds it for other
-    /// scalars.
+    /// Creates the model in double precision, with constants that are
+    /// rounded once from their exact values. `Default` creates it for
+    /// other scalars.
     #[must_use]
     pub fn new() -> Self {
         <Self as ::core::default::Default>::default()
@@ -137,7 +137,7 @@ impl<T: ::branched_pendulum::Scalar> Rod<T> {
         self.half_inertia_rod * centripetal_rod
     }
 
-    /// Potential energy U (in J) at angles `theta` (in rad), zero where all are zero.
+    /// Potential energy U (in J) at angles `theta` (in rad), zero if all are zero.
     ///
     /// ```text
     /// U = G_rod (1 − cos θ_rod)
@@ -165,7 +165,7 @@ impl<T: ::branched_pendulum::Scalar> Rod<T> {
 #[allow(unreachable_pub, clippy::pedantic, clippy::wrong_self_convention)]
 impl<T: ::branched_pendulum::Scalar> Rod<T> {
     /// M_rod (in kg m²): moment of inertia of `rod` about its pivot, with what hangs
-    /// from it as points at their pivots.
+    /// from it as point masses at their pivots.
     ///
     /// M_rod = 0.0165
     #[inline]

@@ -1,4 +1,4 @@
-//! The scene that `model.rs` is the expansion of.
+//! The scene from which `model.rs` was generated.
 
 use branched_pendulum::prelude::*;
 

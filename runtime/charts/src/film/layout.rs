@@ -1,14 +1,14 @@
-//! Places of trees in a film.
+//! Positions of the trees in a film.
 
 use super::{Film, Tree};
 use crate::drawing::{LARGEST_SIDE, Point};
 use crate::error::ChartError;
 
-/// Space around the trees, and height of the line below each that says which it is, px.
+/// Space around the trees, and height of the caption below each tree, in px.
 const MARGIN: f64 = 14.0;
 const LABEL: f64 = 22.0;
 
-/// Where the trees stand, in px.
+/// Positions of the trees, px.
 pub(super) struct Layout {
     /// Pixels in a metre.
     pub(super) scale: f64,
@@ -76,8 +76,8 @@ impl Film {
 }
 
 impl Tree {
-    /// Both ends of every link in a picture, in m from the root's pivot, x to the right, y
-    /// downwards.
+    /// Returns both ends of every link in a picture, in m from the root's pivot; x points to the
+    /// right, y downwards.
     pub(super) fn segments(&self, picture: usize) -> Vec<[[f64; 2]; 2]> {
         let angles = &self.pictures[picture];
         let turned = |[along, across]: [f64; 2], angle: f64| {

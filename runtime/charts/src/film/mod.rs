@@ -1,6 +1,9 @@
 //! Trees in motion.
 
 mod layout;
+mod still;
+
+pub use still::FilmPoint;
 
 use std::fmt::Write;
 
@@ -12,14 +15,16 @@ use crate::style::{Color, Dash, Symbol, automatic};
 use crate::{png, svg};
 use layout::Layout;
 
-/// A link of a [`Film`]; places are (along the link, across it) in m.
+/// A link of a [`Film`]. Positions on the link have two components in m: along the link and across
+/// it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FilmLink {
-    /// Index of the link that it hangs from, which stands before it; none of a root.
+    /// Index of the link from which this one hangs, which must be an earlier one; `None` for a
+    /// root.
     pub parent: Option<usize>,
-    /// The link's pivot on its parent, from the parent's pivot.
+    /// Position of the link's pivot on its parent, relative to the parent's pivot.
     pub pivot: [f64; 2],
-    /// The link's end, from its pivot.
+    /// Position of the link's end, relative to its pivot.
     pub end: [f64; 2],
 }
 
@@ -57,35 +62,39 @@ pub struct Film {
 #[derive(Clone, Debug)]
 struct Tree {
     label: String,
-    /// SVG behind the tree: the root's pivot at (0, 0), y downwards, in px.
+    /// SVG drawn behind the tree, with the root's pivot at (0, 0) and y downwards, in px.
     behind: String,
     links: Vec<FilmLink>,
-    looks: Vec<Look>,
+    looks: Vec<LinkStyle>,
+    /// Names of the links, written next to them. Links beyond the last name are not named.
+    names: Vec<String>,
+    /// Points between which dashed lines are drawn.
+    ties: Vec<[FilmPoint; 2]>,
     pictures: Vec<Vec<f64>>,
 }
 
 /// How a link is drawn.
 #[derive(Clone, Debug)]
-struct Look {
+struct LinkStyle {
     color: Color,
     /// Thickness, px.
     width: f64,
-    /// SVG in the frame of the link: its pivot at (0, 0), its direction downwards, in px.
+    /// SVG attached to the link, with its pivot at (0, 0) and its direction downwards, in px.
     attached: String,
 }
 
 /// Size of the labels, px.
 const TEXT_SIZE: f64 = 13.0;
 
-/// Thickness of the root, px, and of a link over that of its parent.
+/// Thickness of the root in px, and ratio of the thickness of a link to that of its parent.
 const ROOT_WIDTH: f64 = 7.0;
 const THINNER: f64 = 0.8;
 
-/// Most pictures of an animated PNG: it has as many compressed images.
+/// Largest number of pictures of an animated PNG, each of which is a compressed image.
 const MOST_PNG_PICTURES: usize = 600;
 
 impl Film {
-    /// A film without trees, with `interval` (s) between two pictures.
+    /// Creates a film without trees; `interval` is the time (s) between two pictures.
     pub fn new(title: impl Into<String>, interval: f64) -> Self {
         Self {
             title: title.into(),
@@ -97,19 +106,19 @@ impl Film {
         }
     }
 
-    /// Adds a tree that moves through `pictures`, which have an angle for each link.
+    /// Adds a tree. Each picture contains one angle for each of its links.
     ///
     /// # Errors
-    /// [`ChartError::Link`] if a link does not hang from one before it or if its places are
-    /// not finite, [`ChartError::Picture`] if a picture has another number of angles, or
-    /// one that is not finite.
+    /// [`ChartError::Link`] if a link does not hang from an earlier one or a position is not
+    /// finite, [`ChartError::Picture`] if the number of angles of a picture is wrong or an angle is
+    /// not finite.
     pub fn tree<P: AsRef<[f64]>>(
         mut self,
         label: impl Into<String>,
         links: &[FilmLink],
         pictures: &[P],
     ) -> Result<Self, ChartError> {
-        let mut looks: Vec<Look> = Vec::new();
+        let mut looks: Vec<LinkStyle> = Vec::new();
         let mut depths: Vec<usize> = Vec::new();
         for (index, link) in links.iter().enumerate() {
             let finite = link.pivot.iter().chain(&link.end).all(|x| x.is_finite());
@@ -118,7 +127,7 @@ impl Film {
             }
             let depth = link.parent.map_or(0, |parent| depths[parent] + 1);
             depths.push(depth);
-            looks.push(Look {
+            looks.push(LinkStyle {
                 color: automatic(depth).0,
                 width: (ROOT_WIDTH * THINNER.powf(depth as f64)).max(1.0),
                 attached: String::new(),
@@ -140,27 +149,29 @@ impl Film {
             behind: String::new(),
             links: links.to_vec(),
             looks,
+            names: Vec::new(),
+            ties: Vec::new(),
             pictures,
         });
         Ok(self)
     }
 
-    /// Sets the width (px) and the number of trees in a row; 720 and 3 at first.
+    /// Sets the width (px) and the number of trees in a row; by default 720 and 3.
     #[must_use]
     pub fn size(mut self, width: f64, columns: usize) -> Self {
         (self.width, self.columns) = (width, columns.max(1));
         self
     }
 
-    /// Sets the colour behind the trees, white at first.
+    /// Sets the colour behind the trees, by default white.
     #[must_use]
     pub fn background(mut self, color: Color) -> Self {
         self.background = color;
         self
     }
 
-    /// Sets colour and thickness (px) of a link of the last tree, by default those of its
-    /// generation. A link that it does not have is left alone.
+    /// Sets colour and thickness (px) of a link of the last tree; the default depends on its
+    /// generation. An index without a link is ignored.
     #[must_use]
     pub fn link(mut self, link: usize, color: Color, width: f64) -> Self {
         let looks = self
@@ -173,8 +184,8 @@ impl Film {
         self
     }
 
-    /// Puts SVG behind the last tree: the root's pivot at (0, 0), y downwards, in px. The
-    /// animated PNG goes without.
+    /// Draws SVG behind the last tree, with the root's pivot at (0, 0) and y downwards, in px. It
+    /// is left out of an animated PNG.
     #[must_use]
     pub fn behind(mut self, svg: &str) -> Self {
         if let Some(tree) = self.trees.last_mut() {
@@ -183,9 +194,9 @@ impl Film {
         self
     }
 
-    /// Attaches SVG to a link of the last tree, in its frame: the pivot at (0, 0), what is
-    /// along the link downwards, in px. [`scale`](Self::scale) says how many px are a metre.
-    /// The animated PNG goes without.
+    /// Attaches SVG to a link of the last tree, so that it moves with the link: the link's pivot is
+    /// at (0, 0) and the link points downwards, in px. [`scale`](Self::scale) returns the number of
+    /// px per metre. It is left out of an animated PNG.
     #[must_use]
     pub fn attach(mut self, link: usize, svg: &str) -> Self {
         let looks = self
@@ -198,7 +209,7 @@ impl Film {
         self
     }
 
-    /// Attributes of an SVG animation that takes one value a picture.
+    /// Returns the attributes of an SVG animation that takes one value per picture.
     pub fn timed(&self, value: impl Fn(usize) -> f64) -> String {
         let count = self.pictures();
         let duration = self.interval * count.saturating_sub(1) as f64;
@@ -209,7 +220,7 @@ impl Film {
         format!("dur=\"{duration:.3}s\" repeatCount=\"indefinite\" values=\"{values}\"")
     }
 
-    /// Pixels in a metre.
+    /// Returns the number of pixels per metre.
     ///
     /// # Errors
     /// As [`to_svg`](Self::to_svg).
@@ -217,13 +228,13 @@ impl Film {
         Ok(self.layout()?.scale)
     }
 
-    /// Number of pictures: those of the tree that has the fewest.
+    /// Returns the number of pictures of the tree that has the fewest.
     fn pictures(&self) -> usize {
         let counts = self.trees.iter().map(|tree| tree.pictures.len());
         counts.min().unwrap_or(0)
     }
 
-    /// Renders to an SVG document.
+    /// Renders the film as an SVG document.
     ///
     /// # Errors
     /// [`ChartError::Empty`] without trees, links or pictures, [`ChartError::Size`] if the
@@ -243,6 +254,11 @@ impl Film {
             .zip(self.labels(&layout))
         {
             svg::push_mark(&mut out, &marks);
+            if self.pictures() == 1 {
+                for mark in tree.still_marks(&layout, *root, 0) {
+                    svg::push_mark(&mut out, &mark);
+                }
+            }
             put(
                 &mut out,
                 format_args!(
@@ -262,7 +278,7 @@ impl Film {
         Ok(out)
     }
 
-    /// Writes a link, and in its frame the links that hang from it.
+    /// Writes a link and, in its coordinate frame, the links that hang from it.
     fn push_link(&self, out: &mut String, tree: &Tree, index: usize, scale: f64) {
         let (link, look) = (tree.links[index], &tree.looks[index]);
         // Positive angles turn the end to the right, which in SVG is against the clock.
@@ -297,8 +313,8 @@ impl Film {
         out.push_str("</g></g>\n");
     }
 
-    /// Renders to the bytes of an animated PNG, of 600 pictures at most: of longer films
-    /// every second one, every third one, and so on.
+    /// Renders the film as the bytes of an animated PNG with at most 600 pictures. Of longer films,
+    /// only every second picture, every third picture and so on is included.
     ///
     /// # Errors
     /// As [`to_svg`](Self::to_svg), and [`ChartError::Font`] and [`ChartError::Encode`].
@@ -331,6 +347,7 @@ impl Film {
                     color: look.color,
                 });
             }
+            marks.extend(tree.still_marks(layout, *root, picture));
         }
         Drawing {
             width: layout.width,

@@ -36,6 +36,14 @@ pub(super) fn awkward() -> Vec<(&'static str, Chart)> {
         ),
         ("plain", chart().panel(panel().line("a", &t, &y))),
         (
+            "error bars, and values beyond the range",
+            Chart::new("Title", Axis::linear("generation").whole()).panel(
+                Panel::new(Axis::log("G").range(0.8, 1e6))
+                    .series(Series::points("a", &t, &y).errors(&y).small())
+                    .series(Series::line("b", &t, &ramp(1.0, 1e9)).mark_beyond()),
+            ),
+        ),
+        (
             "long",
             Chart::new(&*long, Axis::linear(&*long)).panel(panel().line(&*long, &t, &y)),
         ),

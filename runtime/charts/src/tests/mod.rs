@@ -2,4 +2,5 @@ mod awkward;
 mod charts;
 mod figures;
 mod films;
+mod marks;
 mod parts;

@@ -146,43 +146,43 @@ fn cells_that_are_doubtful_name_their_place() {
     for (text, expected) in [
         (
             "t,a\n\"1,234\",\"2,345\"\n\"1,235\",\"2,346\"\n",
-            "line 2, column 1: `1,234` is no number (decimal commas in a file of decimal points?)",
+            "line 2, column 1: `1,234` is not a number (decimal commas in a file of decimal points?)",
         ),
         (
             "when,a\n2024-05-01T12:03:04.5,0.8\n2024-05-01T12:03:04.6,0.7\n",
-            "line 2, column 1: `2024-05-01T12:03:04.5` is no number (a date; write the time in seconds)",
+            "line 2, column 1: `2024-05-01T12:03:04.5` is not a number (a date; write the time in seconds)",
         ),
         (
             "t,a,b\n01/05/2024 12:03,0.8,0.7\n01/05/2024 12:04,0.7,0.7\n01/05/2024 12:05,0.7,0.7\n",
-            "line 2, column 1 (`t`): `01/05/2024 12:03` is no number (a date; write the time in seconds)",
+            "line 2, column 1 (`t`): `01/05/2024 12:03` is not a number (a date; write the time in seconds)",
         ),
         (
             "t,a,b\n12:03,0.8,0.7\n12:04,0.7,0.7\n12:05,0.7,0.7\n",
-            "line 2, column 1 (`t`): `12:03` is no number (a time of day? write hours:minutes:seconds, or seconds)",
+            "line 2, column 1 (`t`): `12:03` is not a number (a time of day? write hours:minutes:seconds, or seconds)",
         ),
         (
             "t;a\n0.0;0.8 about\n0.1;0.7 about\n",
-            "line 2, column 2: `0.8 about` is no number",
+            "line 2, column 2: `0.8 about` is not a number",
         ),
         (
             "note\nt;a\n1 000.5;0.5 x\n1 000.6;0.6 x\n",
-            "line 3, column 1: `1 000.5` is no number (are thousands separated?)",
+            "line 3, column 1: `1 000.5` is not a number (are thousands separated?)",
         ),
         (
             "t,a\n0.0 s,45.8°\n0.1 s,0.8 rad\n0.2 s,45.9°\n",
-            "line 3, column 2 (`a`): `0.8 rad` is not in the unit of its column (°)",
+            "line 3, column 2 (`a`): `0.8 rad` has another unit than its column (unit of the column: °)",
         ),
         (
             "t [s],a [deg]\n0.0,45.8\n0.1,0.8 rad\n0.2,45.9\n",
-            "line 3, column 2 (`a`): `0.8 rad` is not in the unit of its column (deg)",
+            "line 3, column 2 (`a`): `0.8 rad` has another unit than its column (unit of the column: deg)",
         ),
         (
             "t,a\n0.0,0.8\n0.1,45.8°\n0.2,0.9\n",
-            "line 3, column 2 (`a`): `45.8°` is not in the unit of its column (none)",
+            "line 3, column 2 (`a`): `45.8°` has another unit than its column (unit of the column: none)",
         ),
         (
             "t,a,b\n0.0,x1,0.5\n0.1,0.4,0.5\n0.2,0.4,0.6\n",
-            "line 2, column 2 (`a`): `x1` is no number",
+            "line 2, column 2 (`a`): `x1` is not a number",
         ),
     ] {
         assert_eq!(
@@ -198,23 +198,23 @@ fn texts_that_are_no_tables_are_named() {
     for (text, expected) in [
         (
             "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<object class=\"org.opensourcephysics.cabrillo.tracker.TrackerPanel\">\n<property name=\"x\" type=\"double\">0.5</property>\n",
-            "is no table of numbers but a project of Tracker; open it in Tracker and export the data of its tracks (File, Export)",
+            "is not a table of numbers but a project of Tracker; open it in Tracker and export the data of its tracks (File, Export)",
         ),
         (
             "\u{feff}<?xml version='1.0'?>\n<rows><row>1 2</row></rows>\n",
-            "is no table of numbers but XML; export the table from the program that wrote it",
+            "is not a table of numbers but XML; export the table from the program that wrote it",
         ),
         (
             "<!DOCTYPE html>\n<HTML><body>1, 2</body></HTML>\n",
-            "is no table of numbers but a page of the web; save the table itself as text",
+            "is not a table of numbers but a page of the web; save the table itself as text",
         ),
         (
             "{\"t\": [0.0, 0.1], \"a\": [1, 2]}",
-            "is no table of numbers but JSON; write a line for each time, with commas between its numbers",
+            "is not a table of numbers but JSON; write a line for each time, with commas between its numbers",
         ),
         (
             "[[0.0, 0.1],\n[0.1, 0.2]]\n",
-            "is no table of numbers but JSON; write a line for each time, with commas between its numbers",
+            "is not a table of numbers but JSON; write a line for each time, with commas between its numbers",
         ),
     ] {
         assert_eq!(

@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use branched_pendulum_data::{AngleColumns, AngleUnit, Clock, Markers, Recording};
 
-use super::findings::{outliers, told};
+use super::findings::{outliers, reported};
 use super::table;
 
 /// Degrees that are exchanged between columns come back to their own.
@@ -41,7 +41,7 @@ fn exchanged_columns_are_changed_back() {
             }
         }
         let words = format!("exchanged, and changed back: `a` and `b` in {count} row");
-        assert!(told(&recording, &words), "{:?}", recording.findings);
+        assert!(reported(&recording, &words), "{:?}", recording.findings);
     }
 }
 
@@ -91,7 +91,7 @@ fn exchanged_dots_are_changed_back() {
             }
         });
         assert!(
-            told(&recording, "exchanged, and changed back: "),
+            reported(&recording, "exchanged, and changed back: "),
             "{:?}",
             recording.findings
         );
@@ -116,7 +116,11 @@ fn one_dot_that_is_wrong_is_no_exchange() {
                 *end = [0, 1].map(|axis| 2.0 * pivot[axis] - end[axis]);
             }
         });
-        assert!(!told(&recording, "exchanged"), "{:?}", recording.findings);
+        assert!(
+            !reported(&recording, "exchanged"),
+            "{:?}",
+            recording.findings
+        );
         assert_eq!(outliers(&recording, 0), [wrong]);
         for (link, angles) in recording.links.iter().zip(&truth) {
             let used = (0..200).filter_map(|row| Some((link.angle(row)?, angles[row])));

@@ -26,7 +26,7 @@ fn read(text: &str) -> Recording {
     columns.read(&table(text)).unwrap()
 }
 
-pub(crate) fn told(recording: &Recording, part: &str) -> bool {
+pub(crate) fn reported(recording: &Recording, part: &str) -> bool {
     recording
         .findings
         .iter()
@@ -89,7 +89,7 @@ fn turns_are_counted_ahead() {
                 "{rate} {time}: {found} {expected}"
             );
         }
-        assert!(told(&recording, "no rows between"));
+        assert!(reported(&recording, "no rows between"));
     }
 }
 
@@ -142,12 +142,16 @@ fn rows_at_the_edges_of_an_encoder() {
             last = count;
         }
         let recording = read(&columns(rows));
-        assert!(told(&recording, "uneven times"), "{:?}", recording.findings);
-        assert!(!told(&recording, "samples a second"));
+        assert!(
+            reported(&recording, "uneven times"),
+            "{:?}",
+            recording.findings
+        );
+        assert!(!reported(&recording, "samples a second"));
         assert!(recording.findings.len() <= 10, "{:?}", recording.findings);
         let gaps = &recording.timing.gaps;
         assert_eq!(gaps.len(), usize::from(lost.is_some()), "{gaps:?}");
-        assert_eq!(told(&recording, "no rows between"), lost.is_some());
+        assert_eq!(reported(&recording, "no rows between"), lost.is_some());
         // In 0.7 s it may have turned over.
         let is_doubtful = recording
             .findings
@@ -188,7 +192,7 @@ fn a_record_about_half_a_turn_is_doubtful() {
                 ..AngleColumns::default()
             };
             let given = given.read(&table(&text)).unwrap();
-            assert!(!told(&given, "half a turn"), "{:?}", given.findings);
+            assert!(!reported(&given, "half a turn"), "{:?}", given.findings);
         }
     }
 }
@@ -248,7 +252,7 @@ fn the_rate_of_rounded_times() {
             )
         });
         let recording = read(&columns(rows));
-        assert!(told(&recording, text), "{:?}", recording.findings);
+        assert!(reported(&recording, text), "{:?}", recording.findings);
     }
 }
 
@@ -293,14 +297,14 @@ fn findings_are_grouped() {
         let longest = all.iter().map(String::len).max().unwrap();
         assert!(all.len() <= 9 && longest < 250, "{all:?}");
         assert!(
-            told(
+            reported(
                 &recording,
                 "values missing in 389 rows: 8 of `p0`, 8 of `p1`"
             ),
             "{all:?}"
         );
         assert!(
-            told(
+            reported(
                 &recording,
                 "no rows between 0.04 s and 0.06 s, 0.41 s and 0.43 s"
             ),

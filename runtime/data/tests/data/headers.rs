@@ -156,11 +156,11 @@ fn a_frame_rate_leaves_times_aside() {
             &TIMES.map(|time| time + start),
             &[&[0.81], &[0.71], &[0.61]],
         );
-        let told = read
+        let reported = read
             .findings
             .iter()
             .any(|f| f.text.contains("4 a second, whatever `t"));
-        assert!(told, "{:?}", read.findings);
+        assert!(reported, "{:?}", read.findings);
     }
 }
 
@@ -211,9 +211,9 @@ fn columns_that_nobody_asked_for_do_not_decide() {
         &TIMES,
         &[&[0.81, 0.52], &[0.71, 0.42], &[0.61, 0.32]],
     );
-    let told: Vec<String> = read.findings.iter().map(ToString::to_string).collect();
+    let reported: Vec<String> = read.findings.iter().map(ToString::to_string).collect();
     let expected = "detected: no angles, by units or as text: `note`, `omega`, `gap`";
-    assert!(told.contains(&expected.to_owned()), "{told:?}");
+    assert!(reported.contains(&expected.to_owned()), "{reported:?}");
 }
 
 /// Of rows with one time the first counts, or the last.
@@ -297,11 +297,11 @@ fn stretches_are_left_out() {
         let recording = read(&by_time, clock, stretches).unwrap();
         assert_eq!(recording.times, [0.0, 0.25, 0.5, 0.75, 1.0]);
         assert_eq!(left(&recording), expected, "{stretches:?}");
-        let told = recording
+        let reported = recording
             .findings
             .iter()
             .filter(|f| f.text.contains("left out, from"));
-        assert_eq!(told.count(), stretches.len());
+        assert_eq!(reported.count(), stretches.len());
     }
     for empty in [[1.5, 2.0], [0.3, 0.4], [0.6, 0.4]] {
         let error = read(&by_time, &Clock::Detect, &[empty])

@@ -1,13 +1,18 @@
 //! Files of numbers, written and read.
 
 mod cells;
+mod clocks;
 mod exchanges;
 mod findings;
 mod headers;
+mod leaps;
 mod malformed;
 mod points;
 mod reading;
 mod refused;
+#[cfg(feature = "spreadsheets")]
+mod spreadsheets;
+mod tables;
 mod writing;
 mod wrong_pictures;
 
@@ -15,6 +20,8 @@ use branched_pendulum_data::{
     AngleColumns, Clock, LinkMarkers, Markers, ReadError, Recording, Table, TableOptions,
     read_angles,
 };
+
+use findings::{outliers, reported};
 
 fn table(text: &str) -> Table {
     parse(text).unwrap()

@@ -80,42 +80,47 @@ fn mutate(rounds: usize) {
 #[test]
 fn malformed_files_name_their_place() {
     let angles = AngleColumns::default();
-    let whole = "holds whole numbers and names no unit; give the frame rate, or the unit behind \
-                 the name (frames are never taken for seconds)";
+    let whole = |name: &str| {
+        format!(
+            "a.csv: column `{name}` holds whole numbers and names no unit; give the frame rate, or \
+             the name of the column with its unit, as in `{name} [ms]` (frames are never taken for \
+             seconds)"
+        )
+    };
     let cases: [(&str, &str); 40] = [
         ("", "a.csv: is empty"),
         (" \n\n\t\n", "a.csv: is empty"),
         (
             "hello\nworld\n",
-            "a.csv: has no line of numbers in at least two columns",
+            "a.csv: has no row with numbers in at least two columns",
         ),
         (
             "1\n2\n3\n",
-            "a.csv: has no line of numbers in at least two columns",
+            "a.csv: has no row with numbers in at least two columns",
         ),
         (
             "t,a\n",
-            "a.csv: has no line of numbers in at least two columns",
+            "a.csv: has no row with numbers in at least two columns",
         ),
         (
             "t,a\n0.0,1\n",
-            "a.csv: has 1 row of numbers; at least 3 are needed",
+            "a.csv: has 1 row of numbers; at least 3 rows are needed",
         ),
         (
             "t,a\n0.0,1\n0.1,x1\n0.2,3\n",
-            "a.csv, line 3, column 2 (`a`): `x1` is no number",
+            "a.csv, line 3, column 2 (`a`): `x1` is not a number",
         ),
         (
             "t,a\n\n\n0.0,1\n0.1,1.234.5\n0.2,3\n",
-            "a.csv, line 5, column 2 (`a`): `1.234.5` is no number (are thousands separated?)",
+            "a.csv, line 5, column 2 (`a`): `1.234.5` is not a number (are thousands separated?)",
         ),
         (
             "t;a\n0,0;1,5\n0,1;1.5\n0,2;1,5\n",
-            "a.csv, line 3, column 2 (`a`): `1.5` is no number (decimal points in a file of decimal commas?)",
+            "a.csv, line 3, column 2 (`a`): `1.5` is not a number (decimal points in a file of decimal commas?)",
         ),
         (
             "t;a\n0.0;1.5\n0.1;1,5\n0.2;1.5\n",
-            "a.csv, line 3, column 2 (`a`): `1,5` is no number (decimal commas in a file of decimal points?)",
+            "a.csv, line 3, column 2 (`a`): `1,5` is not a number (decimal commas in a file of decimal points?)",
         ),
         (
             "t,a\n0.0,1\n0.1,inf\n0.2,1\n",
@@ -127,11 +132,11 @@ fn malformed_files_name_their_place() {
         ),
         (
             "t,a\n0.0,1\n0.1\n0.2,1\n",
-            "a.csv, line 3: 1 cell where the table has 2 columns",
+            "a.csv, line 3: the row has 1 cell, but the table has 2 columns",
         ),
         (
             "t,a\n0.0,1\n0.1,1,7\n0.2,1\n",
-            "a.csv, line 3: 3 cells where the table has 2 columns",
+            "a.csv, line 3: the row has 3 cells, but the table has 2 columns",
         ),
         (
             "t,a,b\n0.0,1\n0.1,1\n0.2,1\n",
@@ -157,46 +162,34 @@ fn malformed_files_name_their_place() {
             "t,a\n0.0,1\n0.2,1\n0.2,1\n",
             "a.csv, line 4, column 1 (`t`): time 0.2 s does not come after 0.2 s; say which row of one time counts, the first or the last",
         ),
-        (
-            "t,a\n0,1\n1,1\n2,1\n",
-            &format!("a.csv: column `t` {whole}"),
-        ),
+        ("t,a\n0,1\n1,1\n2,1\n", &whole("t")),
         // One frame lost, every second one, and a file without names.
-        (
-            "t,a\n0,1\n1,1\n3,1\n",
-            &format!("a.csv: column `t` {whole}"),
-        ),
-        (
-            "time;a\n100;1,5\n102;1,5\n104;1,5\n",
-            &format!("a.csv: column `time` {whole}"),
-        ),
-        (
-            "0,1\n1,1\n2,1\n",
-            &format!("a.csv: column `column 1` {whole}"),
-        ),
+        ("t,a\n0,1\n1,1\n3,1\n", &whole("t")),
+        ("time;a\n100;1,5\n102;1,5\n104;1,5\n", &whole("time")),
+        ("0,1\n1,1\n2,1\n", &whole("column 1")),
         (
             "frame,a\n0,1\n1,1\n2,1\n",
             "a.csv: column `frame` counts frames; give the frame rate (frames are never taken for seconds)",
         ),
         (
             "x,a\n0.0,1\n0.1,1\n0.2,1\n",
-            "a.csv: no column is the time; name it, or give the frame rate",
+            "a.csv: found no column of times; name the column of the time, or give the frame rate",
         ),
         (
             "t [h],a\n0.0,1\n0.1,1\n0.2,1\n",
-            "a.csv: column `t` is in `h`, which is no unit of time",
+            "a.csv: column `t` is in `h`, which is not a unit of time",
         ),
         (
             "t,a [m]\n0.0,1\n0.1,1\n0.2,1\n",
-            "a.csv: column `a` is in `m`, which is no unit of an angle",
+            "a.csv: column `a` is in `m`, which is not a unit of an angle",
         ),
         (
             "t,a [deg],b [rad]\n0.0,1,1\n0.1,1,1\n0.2,1,1\n",
-            "a.csv: columns of angles in degrees beside some in radians",
+            "a.csv: columns of angles in degrees and in radians",
         ),
         (
             "t,a,b\n0.0,1,1\n0.1,-40,1\n0.2,1,1\n",
-            "a.csv: column `a` names no unit, and its values, up to 40, may be degrees or radians; say which",
+            "a.csv: column `a` names no unit, and its values, up to 40, may be degrees or radians; give the unit",
         ),
         (
             "t,frame\n0.0,1\n0.1,1\n0.2,1\n",
@@ -204,7 +197,8 @@ fn malformed_files_name_their_place() {
         ),
         (
             "t,a [rad]\n0.0,1\n0.1,1e9\n0.2,1\n",
-            "a.csv, line 3: an angle of `a` is 1000000000 rad",
+            "a.csv, line 3: an angle of `a` is 1000000000 rad; at most ±1e6 rad is accepted: check the \
+             unit of the column",
         ),
         (
             "scorer,n,n\ncoords,x,y\n0,1,1\n1,1,1\n",
@@ -224,7 +218,7 @@ fn malformed_files_name_their_place() {
         ),
         (
             "t,a\n0.0,1\n0.1,\"1\n0.2,1\n",
-            "a.csv, line 3, column 2 (`a`): `\"1…` is no number (a quotation mark that is not closed?)",
+            "a.csv, line 3, column 2 (`a`): `\"1…` is not a number (a quotation mark that is not closed?)",
         ),
         (
             "t,a\n0.0,1\nnan,1\n0.2,1\n",
@@ -232,7 +226,7 @@ fn malformed_files_name_their_place() {
         ),
         (
             "t,a\n0.0,1\n0.1,0x1F\n0.2,1\n",
-            "a.csv, line 3, column 2 (`a`): `0x1F` is no number",
+            "a.csv, line 3, column 2 (`a`): `0x1F` is not a number",
         ),
         (
             "t [s],a [rad]\n0.0,1\n1e400,1\n0.2,1\n",
@@ -269,7 +263,7 @@ fn wrong_requests_name_what_there_is() {
     };
     assert_eq!(
         refused(rate(-1.0)),
-        "swing.csv: a frame rate of -1 Hz; it must be finite and positive"
+        "swing.csv: the frame rate is -1 Hz; it must be finite and positive"
     );
     let parents = |parents: &[Option<usize>]| AngleColumns {
         relative_to: parents.to_vec(),
@@ -310,22 +304,27 @@ fn wrong_requests_name_what_there_is() {
         (
             "utf16.csv",
             b"\xff\xfet\0",
-            "is no text but UTF-16; save it as text (UTF-8)",
+            "is not text but UTF-16; save it as text (UTF-8)",
         ),
         (
             "sheet.xlsx",
             b"PK\x03\x04....",
-            "is no text but a zip archive (a spreadsheet?); save it as text (UTF-8)",
+            match cfg!(feature = "spreadsheets") {
+                true => {
+                    "is not text but an archive or a document that is not a spreadsheet; save it as text (UTF-8)"
+                }
+                false => "is not text but a zip archive (a spreadsheet?); save it as text (UTF-8)",
+            },
         ),
         (
             "net.h5",
             b"\x89HDF\r\n",
-            "is no text but HDF5; save it as text (UTF-8)",
+            "is not text but HDF5; save it as text (UTF-8)",
         ),
         (
             "raw.bin",
             b"1,2\0",
-            "is no text but binary data; save it as text (UTF-8)",
+            "is not text but binary data; save it as text (UTF-8)",
         ),
     ];
     for (name, bytes, expected) in files {

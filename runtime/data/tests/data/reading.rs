@@ -9,7 +9,7 @@ use branched_pendulum_data::{
 
 use super::{frames, swing, table};
 
-fn told(recording: &Recording) -> Vec<String> {
+fn reported(recording: &Recording) -> Vec<String> {
     recording.findings.iter().map(ToString::to_string).collect()
 }
 
@@ -80,18 +80,18 @@ fn units_come_from_headers() {
     assert_eq!(recording.times, [0.0, 0.01, 0.02, 0.04]);
     close(recording.links[0].angle(3), 14.0_f64.to_radians(), 1e-15);
     assert_eq!(recording.timing.gaps.len(), 1);
-    let told = told(&recording);
+    let reported = reported(&recording);
     assert!(
-        told.contains(&"detected: `time` is the time, in ms".to_owned()),
-        "{told:?}"
+        reported.contains(&"detected: `time` is the time, in ms".to_owned()),
+        "{reported:?}"
     );
     assert!(
-        told.contains(&"detected: angles in degrees".to_owned()),
-        "{told:?}"
+        reported.contains(&"detected: angles in degrees".to_owned()),
+        "{reported:?}"
     );
     assert!(
-        told.contains(&"detected: no rows between 0.02 s and 0.04 s".to_owned()),
-        "{told:?}"
+        reported.contains(&"detected: no rows between 0.02 s and 0.04 s".to_owned()),
+        "{reported:?}"
     );
 }
 
@@ -104,7 +104,7 @@ fn angles_from_above_and_from_other_links() {
     }
     let recording = AngleColumns::default().read(&table(&text)).unwrap();
     close(recording.links[1].angle(7), two[7], 1e-14);
-    assert!(told(&recording).contains(&"detected: angles from the upward vertical".to_owned()));
+    assert!(reported(&recording).contains(&"detected: angles from the upward vertical".to_owned()));
 
     let mut text = "t,first,second\n".to_owned();
     for ((time, one), two) in times.iter().zip(&one).zip(&two) {
@@ -289,15 +289,16 @@ fn turns_and_outliers() {
         }
     }
     assert_eq!(outliers, [250.0, 400.0, 402.0]);
-    let told = told(&recording);
+    let reported = reported(&recording);
     assert!(
-        told.iter()
+        reported
+            .iter()
             .any(|text| text.contains("jumps of a turn were taken out")),
-        "{told:?}"
+        "{reported:?}"
     );
     assert!(
-        told.iter().any(|text| text.contains("`a`: 3 outliers")),
-        "{told:?}"
+        reported.iter().any(|text| text.contains("`a`: 3 outliers")),
+        "{reported:?}"
     );
 }
 
@@ -330,14 +331,14 @@ fn the_measured_double_pendulum() {
     assert_eq!(recording.links.len(), 2);
     assert!((recording.timing.interval - 0.01).abs() < 1e-12);
     close(recording.links[0].angle(0), 2.615775 - PI, 1e-15);
-    let told = told(&recording);
+    let reported = reported(&recording);
     assert!(
-        told.contains(&"detected: angles from the upward vertical".to_owned()),
-        "{told:?}"
+        reported.contains(&"detected: angles from the upward vertical".to_owned()),
+        "{reported:?}"
     );
     let samples = recording.links.iter().flat_map(|link| &link.samples);
     let marked = samples
         .filter(|sample| !matches!(sample, Sample::Measured(_)))
         .count();
-    assert_eq!(marked, 0, "{told:?}");
+    assert_eq!(marked, 0, "{reported:?}");
 }

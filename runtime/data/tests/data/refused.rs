@@ -38,7 +38,7 @@ fn named_columns_win_over_points() {
         let error = by_columns(&text, &[]).unwrap_err();
         assert!(
             error.starts_with(
-                "swing.csv: columns of angles (`theta1`, `theta2`) stand beside points ("
+                "swing.csv: there are columns of angles (`theta1`, `theta2`) and points ("
             ),
             "{error}"
         );
@@ -81,7 +81,7 @@ fn names_of_other_quantities_are_no_angles() {
         let text = rows(header, header.matches(',').count());
         let error = by_columns(&text, &[]).unwrap_err();
         let expected = format!(
-            "swing.csv: column `{column}` is called like {quantity}, not like an angle; name the \
+            "swing.csv: the name of column `{column}` suggests {quantity}, not an angle; name the \
              columns of the angles, or the points"
         );
         assert_eq!(error, expected);
@@ -91,7 +91,7 @@ fn names_of_other_quantities_are_no_angles() {
     let text = rows("t,Gyroscope x (rad/s),Gyroscope y (rad/s)", 2);
     let error = by_columns(&text, &[]).unwrap_err();
     assert!(
-        error.contains("`Gyroscope x` is in `rad/s`, which is no unit"),
+        error.contains("`Gyroscope x` is in `rad/s`, which is not a unit"),
         "{error}"
     );
     for header in [
@@ -194,7 +194,7 @@ fn angles_without_a_unit_are_doubtful() {
         let expected = "swing.csv: column `a` names no unit, and its values, up to ";
         assert!(error.starts_with(expected), "{error}");
         assert!(
-            error.ends_with("may be degrees or radians; say which"),
+            error.ends_with("may be degrees or radians; give the unit"),
             "{error}"
         );
         for (unit, size_of) in [
@@ -224,10 +224,10 @@ fn angles_without_a_unit_are_doubtful() {
         text += &format!("{time},{:.4}\n", angle - TAU * (angle / TAU).round());
     }
     let read = by_columns(&text, &[]).unwrap();
-    let told: Vec<String> = read.findings.iter().map(ToString::to_string).collect();
+    let reported: Vec<String> = read.findings.iter().map(ToString::to_string).collect();
     assert!(
-        told.contains(&"assumed: angles in radians".to_owned()),
-        "{told:?}"
+        reported.contains(&"assumed: angles in radians".to_owned()),
+        "{reported:?}"
     );
 }
 
@@ -259,7 +259,7 @@ fn options_that_cannot_apply_are_refused() {
     let error = by_columns(&text, &["a", "note"]).unwrap_err();
     assert_eq!(
         error,
-        "swing.csv, line 2, column 4 (`note`): `on` is no number"
+        "swing.csv, line 2, column 4 (`note`): `on` is not a number"
     );
     let error = by_columns("t,a,b\n0.0,1.01,\n0.1,1.02,\n0.2,1.03,\n", &["b"]).unwrap_err();
     assert_eq!(error, "swing.csv: column `b` holds no number");
@@ -293,7 +293,7 @@ fn options_that_cannot_apply_are_refused() {
     assert!(
         error
             .to_string()
-            .contains("`p_x` is called like a coordinate"),
+            .contains("the name of column `p_x` suggests a coordinate"),
         "{error}"
     );
     let angles = table(&rows("t,a,b", 2));
@@ -311,7 +311,7 @@ fn options_that_cannot_apply_are_refused() {
     };
     let error = links.read(&points).unwrap_err();
     assert!(
-        error.to_string().contains("the pivot beside named points"),
+        error.to_string().contains("the pivot next to named points"),
         "{error}"
     );
 }

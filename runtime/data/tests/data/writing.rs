@@ -46,10 +46,11 @@ fn header_and_values_that_need_care() {
     let columns = [Column::new("W, \"exact\"", "W"), Column::new("θ_m", "rad")];
     let mut csv = CsvWriter::create(&path, &columns).unwrap();
     csv.row([f64::NAN, f64::NEG_INFINITY]).unwrap();
+    assert_eq!(csv.empty_cells(), 2);
     csv.finish().unwrap();
     let text = std::fs::read_to_string(&path).unwrap();
     std::fs::remove_file(&path).unwrap();
-    assert_eq!(text, "\"W, \"\"exact\"\" [W]\",θ_m [rad]\nNaN,-inf\n");
+    assert_eq!(text, "\"W, \"\"exact\"\" [W]\",θ_m [rad]\n,\n");
 }
 
 #[test]
@@ -58,7 +59,7 @@ fn refusals_name_the_file() {
     let error = CsvWriter::create(&path, &[]).unwrap_err();
     assert_eq!(
         error.to_string(),
-        format!("no columns for {}", path.display())
+        format!("the table for {} has no columns", path.display())
     );
     assert!(!path.exists());
 
@@ -67,7 +68,10 @@ fn refusals_name_the_file() {
     let error = csv.row([1.0, 2.0]).unwrap_err();
     assert_eq!(
         error.to_string(),
-        format!("row 1 of {} has 2 values for 1 columns", path.display())
+        format!(
+            "row 1 of {} has 2 values, but the table has 1 columns",
+            path.display()
+        )
     );
     csv.finish().unwrap();
     std::fs::remove_file(&path).unwrap();

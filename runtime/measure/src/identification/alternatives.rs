@@ -1,4 +1,5 @@
-//! Unknowns from frequencies alone, which several sets of values may meet.
+//! Search for unknown parameters from frequencies only, which several sets of values may fit
+//! equally well.
 
 use nalgebra::DVector;
 
@@ -7,25 +8,27 @@ use super::family::Family;
 use super::fit::Fit;
 use super::search::{Rung, Search};
 
-/// Starts beside the one that is given.
+/// Number of additional starting points besides the given one.
 const MORE_STARTS: usize = 20;
-/// Sums of squares that differ by less are one, and those that data tell apart by no more than
-/// chance does.
+/// Largest relative difference at which two sums of squares count as equal; data separate such sums
+/// only by chance.
 const TIE: f64 = 1e-3;
 const AS_WELL: f64 = 1.0;
-/// Distance in standard errors, by the slopes of the frequencies, beyond which two sets of values
-/// are two.
+/// Distance in standard errors of the frequencies above which two sets of values count as
+/// different.
 const APART: f64 = 2.0;
 
 impl<F: Family> Search<'_, F> {
-    /// Tries starts on frequencies alone. The result is the one that meets them best, and nearest
-    /// to the start that was given of those that meet them alike.
+    /// Searches from several starting points, using frequencies only. The result is the set of
+    /// values that fits them best; among equally good ones, the one closest to the given starting
+    /// point.
     pub(super) fn try_starts_at_rest(
         mut self,
         globals: &[f64],
     ) -> Result<Fit, IdentificationError> {
         self.identification.check_unknowns(&self.task, &[])?;
-        // Number 1 would be the start that is given in shorter segments, of which there are none.
+        // Number 1 would be the given starting point with shorter segments, of which there are
+        // none.
         let numbers = (0..=1 + MORE_STARTS).filter(|&number| number != 1);
         let rungs: Vec<Rung> = numbers
             .filter_map(|number| self.scout(number, globals))
@@ -46,8 +49,8 @@ impl<F: Family> Search<'_, F> {
         })
     }
 
-    /// Values of the unknowns apart from the best, which a pendulum may have and whose sum of
-    /// squares is below a bound; each once.
+    /// Returns the other physical sets of values whose sum of squares is below `bound`, each set
+    /// once.
     fn alternatives(&self, best: &Rung, rungs: &[Rung], bound: f64) -> Vec<Vec<f64>> {
         let mut found: Vec<&Rung> = Vec::new();
         for rung in rungs {
@@ -63,7 +66,8 @@ impl<F: Family> Search<'_, F> {
         values.collect()
     }
 
-    /// Whether values are others than those of `rung`. What leaves some open is one set of values.
+    /// Returns true if the values of two results differ. Results that differ only in what the data
+    /// do not determine count as equal.
     fn is_apart(&self, rung: &Rung, other: &Rung) -> bool {
         let free = &rung.stage.free;
         if !rung.solved.held.is_empty() || !other.solved.held.is_empty() {

@@ -1,5 +1,6 @@
-//! A fit against records: the one that was fitted, or others.
+//! Comparison of a fit with records: the fitted one, or others.
 
+use super::effort::Effort;
 use super::error::{IdentificationError, positive};
 use super::family::Family;
 use super::fit::{AngleErrors, Fit};
@@ -12,9 +13,13 @@ use crate::smoothing::misplaced;
 use branched_pendulum::integrate::{Dop853, Integrator, Options};
 use branched_pendulum::system::State;
 
+/// Largest number of integration steps of a motion: a fixed number, plus a number for each time.
+const STEPS: u64 = 200_000;
+const STEPS_FOR_EACH: u64 = 100;
+
 impl<F: Family> Identification<F> {
-    /// Follows the motion of a fit from the record's start on: angles and velocities of all
-    /// links at these times, none of which may be before it.
+    /// Computes the motion of a fit from the start of its record: angles and velocities of all
+    /// links at `times`, none of which may be before the start.
     ///
     /// # Errors
     ///
@@ -33,17 +38,21 @@ impl<F: Family> Identification<F> {
             return Err(IdentificationError::Time { index, value });
         }
         let equations = self.family.equations(fit.parameters());
-        let method = Dop853::new(Options::with_tolerance(self.shooting.tolerance));
+        // Constants that are not physical may need steps without end.
+        let method = Dop853::new(Options {
+            step_limit: STEPS + STEPS_FOR_EACH * times.len() as u64,
+            ..Options::with_tolerance(self.shooting.tolerance)
+        });
         let motion = method.sample_to_vec(&equations, start, times);
         motion.map_err(|_| IdentificationError::NoMotion { time: start.time })
     }
 
-    /// Compares the motion of a fit, followed from its start on without any correction, with
-    /// a record: the one that was fitted, or what comes after it.
+    /// Compares the motion of a fit, integrated from its start without correction, with a record:
+    /// the fitted one, or a later one.
     ///
     /// # Errors
     ///
-    /// As [`predict`](Self::predict), and for a record that makes no sense.
+    /// As [`predict`](Self::predict), and for an invalid record.
     pub fn errors(
         &self,
         fit: &Fit,
@@ -66,9 +75,8 @@ impl<F: Family> Identification<F> {
         })
     }
 
-    /// Compares a fit with a record in windows of this length (s), the state at the start of
-    /// each being that which suits it best: what the model lacks, apart from what has added
-    /// up before.
+    /// Compares a fit with a record in windows of length `length` (s). Each window starts from the
+    /// state that fits it best, so that errors of the model do not accumulate over windows.
     ///
     /// # Errors
     ///
@@ -80,7 +88,8 @@ impl<F: Family> Identification<F> {
         length: f64,
     ) -> Result<AngleErrors, IdentificationError> {
         positive("length of windows", length)?;
-        let (mut task, _) = self.task(record)?;
+        let effort = Effort::unbounded();
+        let (mut task, _) = self.task(record, &effort)?;
         task.values.clone_from(&fit.values);
         // They have no part in a motion whose parameters are found.
         task.frequencies.clear();

@@ -1,34 +1,34 @@
-//! How a search ended, and whether its result is one.
+//! How a search ended, and if its result is valid.
 
 use core::fmt;
 
-/// Residual, in deviations of the noise, up to which it is the noise's.
+/// Largest residual, in standard deviations of the noise, that noise can explain.
 const NOISE: f64 = 1.5;
-/// Residuals of two starts that ended alike differ by no more than this share.
-const ALIKE: f64 = 0.01;
-/// Part of the motion that a residual may be at most while segments are made longer, and in
-/// the end. A turn is seen as a radian is, so that a motion counts no more than that.
+/// Largest relative difference between the residuals of two starts that ended in the same minimum.
+const SAME_MINIMUM: f64 = 0.01;
+/// Largest residual relative to the size of the motion, while segments are lengthened and in the
+/// end. The size of a motion that turns over counts as 1 rad.
 const FOLLOWED: f64 = 0.25;
 const GOOD: f64 = 0.05;
-/// Growth of the residual, where a segment becomes twice as long, beyond which the motion is
-/// lost: a torque that the model lacks takes a regular one four times as far.
+/// Growth of the residual, when a segment becomes twice as long, above which the motion is lost. A
+/// torque that the model lacks makes the residual of a regular motion four times as large.
 const GROWTH: f64 = 6.0;
-/// Distance from the minimum, in deviations, at which a search is at its end.
+/// Distance from the minimum, in standard deviations, at which a search has converged.
 const SETTLED: f64 = 0.5;
-/// Residual, of the motion, that integration leaves.
+/// Residual, relative to the motion, that is caused by the integration.
 pub(super) const ROUNDING: f64 = 1e-7;
 
 /// How a search has ended.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Convergence {
-    /// Root mean square of angles less data, rad.
+    /// Root mean square of the residuals (angles of the model minus data), in rad.
     pub rms: f64,
-    /// Root mean square of the data's errors, rad: of what is not smooth in the record, or in
-    /// what is left over of it.
+    /// Root mean square of the data's errors, in rad, estimated from the part of the record, or of
+    /// its residuals, that is not smooth.
     pub noise: f64,
-    /// Root mean square of the motion about its mean, rad; 1 at most.
+    /// Root mean square of the motion about its mean, in rad; at most 1.
     pub swing: f64,
-    /// Distance from the minimum by one step more, in naive deviations.
+    /// Distance from the minimum, as the length of one more step, in naive standard deviations.
     pub distance: f64,
     /// Number of starts that were tried.
     pub starts: usize,
@@ -37,7 +37,7 @@ pub struct Convergence {
 }
 
 impl Convergence {
-    /// The convergence of a search that has not begun.
+    /// Returns the convergence of a search that has not begun.
     pub(super) fn before(noise: f64, swing: f64) -> Self {
         Self {
             rms: f64::NAN,
@@ -49,25 +49,26 @@ impl Convergence {
         }
     }
 
-    /// Returns how many times the noise the residual is.
+    /// Returns the ratio of the residual to the noise.
     #[must_use]
     pub fn ratio(&self) -> f64 {
         self.rms / self.noise
     }
 
-    /// Returns whether the residual is the noise's.
+    /// Returns true if the residual is explained by noise.
     #[must_use]
     pub fn is_noise(&self) -> bool {
         self.rms <= f64::max(NOISE * self.noise, ROUNDING * self.swing)
     }
 
-    /// Returns whether one step more would change little beside the deviations.
+    /// Returns true if one more step would be small compared with the standard deviations.
     #[must_use]
     pub fn is_settled(&self) -> bool {
         self.distance <= SETTLED
     }
 
-    /// The convergence with this residual, of which so much changes from one time to the next.
+    /// Returns the convergence with this residual; `rough` is the part of it that changes from one
+    /// time to the next.
     pub(super) fn with_residual(&self, rms: f64, rough: f64) -> Self {
         let is_small = rough <= GOOD * self.swing;
         Self {
@@ -81,23 +82,23 @@ impl Convergence {
         }
     }
 
-    /// Whether segments with this residual may become longer.
+    /// Returns true if the residual is small enough for segments to be lengthened.
     pub(super) fn is_followed(&self) -> bool {
         self.is_noise() || self.rms <= FOLLOWED * self.swing
     }
 
-    /// Whether segments twice as long still have the motion of those with this residual.
+    /// Returns true if segments of twice the length still fit the same motion.
     pub(super) fn is_kept(&self, longer: &Self) -> bool {
         let before = self.rms.max(NOISE * self.noise);
         longer.is_noise() || (longer.is_followed() && longer.rms <= GROWTH * before)
     }
 
-    /// Whether a start with this residual ended where the best one did.
-    pub(super) fn is_alike(&self, rms: f64) -> bool {
-        rms <= (self.rms * (1.0 + ALIKE)).max(ROUNDING * self.swing)
+    /// Returns true if a start with this residual ended in the same minimum as the best one.
+    pub(super) fn is_same_minimum(&self, rms: f64) -> bool {
+        rms <= (self.rms * (1.0 + SAME_MINIMUM)).max(ROUNDING * self.swing)
     }
 
-    /// Why what was found is no result, if it is none.
+    /// Returns the reason why the result is not valid; `None` if it is.
     pub(super) fn failure(&self) -> Option<SearchFailure> {
         if self.is_noise() && self.is_settled() {
             return None;
@@ -133,24 +134,30 @@ impl fmt::Display for Convergence {
     }
 }
 
-/// Why a search found nothing that stands.
+/// Reason why a search has no valid result.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum SearchFailure {
-    /// The motion that was found is another one than that of the record.
+    /// The motion that was found differs from that of the record.
     Astray,
-    /// Segments of one length have the motion of the record, longer ones have lost it.
+    /// Segments of one length fit the motion of the record, but longer ones do not.
     Lost {
-        /// Length of segments that have it, s.
+        /// Length of the segments that fit, in s.
         followed: f64,
     },
-    /// The search ended before it was at a minimum.
+    /// The search ended before it reached a minimum.
     Unsettled,
     /// Every start ended elsewhere.
     Alone,
+    /// The search has done as much work as the size of the record allows.
+    Exhausted,
+    /// The observer of the search has ended it.
+    Interrupted,
+    /// The constants found are not physical ([`Fit::impossible`](super::Fit::impossible)).
+    Unphysical,
 }
 
-/// A number with three digits, as sentences have it.
+/// Formats a number with three digits, for sentences.
 pub(super) fn digits(value: f64) -> String {
     let size = value.abs();
     match size {

@@ -1,5 +1,5 @@
-//! Standard deviations of globals: from the curvature of the sum of squares alone, and from
-//! how the estimate changes when a block of the record is left out.
+//! Standard deviations of the globals (parameters and offsets): from the curvature of the sum of
+//! squares, and from the change of the estimate when a block of the record is left out.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -8,27 +8,29 @@ use super::least_squares::{FitStage, LinearStage};
 use super::task::FitTask;
 use branched_pendulum::analysis::statistics::jackknife;
 
-/// Part of a block of data in the normal equations of the globals, starts eliminated.
+/// Rows of one block of time in the normal equations of the globals, after elimination of the
+/// initial states.
 struct TimeBlock {
     information: DMatrix<f64>,
     pull: DVector<f64>,
 }
 
-/// Normal equations of the globals by blocks of time, beside those of data whose errors are known.
+/// Normal equations of the globals by blocks of time, together with those of the frequencies, whose
+/// errors are known.
 pub(super) struct TimeBlocks {
     blocks: Vec<TimeBlock>,
     columns: usize,
-    /// Rows of frequencies.
+    /// Rows of the frequencies.
     frequencies: DMatrix<f64>,
-    /// Deviation of their residuals.
+    /// Standard deviation of the residuals of the frequencies.
     spread: f64,
 }
 
 impl TimeBlocks {
-    /// Sorts the rows of a stage into blocks of this length, s.
+    /// Sorts the rows of a stage into blocks of time of this length, s.
     ///
-    /// A change of the globals takes the starts with it, by the responses of the
-    /// elimination: along it each row has a derivative with respect to globals alone.
+    /// When the globals change, the initial states of the segments change as the elimination
+    /// prescribes, so that each row has a derivative with respect to the globals only.
     pub(super) fn new(
         task: &FitTask<'_>,
         stage: &FitStage,
@@ -75,15 +77,15 @@ impl TimeBlocks {
         block.pull.axpy(residual, slope, 1.0);
     }
 
-    /// Number of blocks.
+    /// Returns the number of blocks.
     pub(super) fn count(&self) -> usize {
         self.blocks.len()
     }
 
-    /// Variances of combinations of the globals that are not held, a row each: the jackknife
-    /// over blocks, one step of Gauss and Newton for each that is left out (a sandwich whose
-    /// middle allows for what a block itself has drawn the estimate to), and what the standard
-    /// errors of frequencies add to it.
+    /// Returns the variances of combinations of the free globals, one row for each combination.
+    /// They are computed by the jackknife over blocks, with one Gauss–Newton step for each block
+    /// left out (a sandwich estimate whose middle corrects for the pull of a block on the
+    /// estimate), plus the contribution of the standard errors of frequencies.
     pub(super) fn variances(
         &self,
         free: &[usize],
@@ -115,21 +117,22 @@ impl TimeBlocks {
     }
 }
 
-/// Derivatives of rows with respect to globals, starts responding.
+/// Returns the derivatives of rows with respect to the globals, including the change of the initial
+/// states with the globals.
 fn along(rows: &DMatrix<f64>, response: &DMatrix<f64>) -> DMatrix<f64> {
     let (n, columns) = response.shape();
     rows.columns(0, n) * response + rows.columns(n, columns)
 }
 
-/// The square root of the normal equations of the globals that are free.
+/// Square root of the matrix of the normal equations, for the free globals.
 pub(super) struct Curvature {
     root: DMatrix<f64>,
-    /// What one step more would gain.
+    /// Remaining right-hand side, from which one further step is computed.
     rest: DVector<f64>,
 }
 
 impl Curvature {
-    /// The curvature of a triangle of all globals, with what its rows make up for.
+    /// Creates the curvature from the triangular matrix of all globals with its right-hand side.
     pub(super) fn new(globals: &DMatrix<f64>, free: &[usize]) -> Self {
         let last = globals.column(globals.ncols() - 1).into_owned();
         if free.is_empty() {
@@ -147,8 +150,8 @@ impl Curvature {
         }
     }
 
-    /// Variances of combinations of the free globals, a row each, by the curvature alone: for
-    /// data whose errors are independent and of this variance.
+    /// Returns the variances of combinations of the free globals, one row for each combination,
+    /// from the curvature only: valid for data with independent errors of this variance.
     pub(super) fn variances(&self, combinations: &DMatrix<f64>, variance: f64) -> Option<Vec<f64>> {
         let count = self.root.nrows();
         if count == 0 {
@@ -162,7 +165,8 @@ impl Curvature {
         Some(variances.collect())
     }
 
-    /// Distance of the least sum of squares, in deviations of this size.
+    /// Returns the distance to the minimum of the sum of squares, in units of this standard
+    /// deviation of the data.
     pub(super) fn distance(&self, deviation: f64) -> f64 {
         self.rest.norm() / deviation
     }

@@ -1,24 +1,24 @@
-//! Least squares along a chain of segments.
+//! Least squares along a chain of segments, by elimination of their initial states.
 //!
-//! The start of a segment is tied to its own data, to the globals and to the start of the
-//! next: orthogonal transformations eliminate one start after the other, and what is left
-//! is a small problem in the globals (the square-root form of the information filter;
-//! G. J. Bierman, *Factorization methods for discrete sequential estimation*, 1977). Cost:
-//! linear in the data.
+//! The start of a segment is coupled to its data, to the globals and to the start of the next
+//! segment. Orthogonal transformations eliminate the starts one after the other, so that a small
+//! problem in the globals remains (the square-root form of the information filter; G. J. Bierman,
+//! *Factorization methods for discrete sequential estimation*, 1977). The cost is linear in the
+//! number of data.
 
 use nalgebra::{DMatrix, DVector};
 
 use super::least_squares::{Damping, FitStage, LinearStage};
 
-/// The chain with all starts eliminated.
+/// The normal equations of the chain after all initial states have been eliminated.
 pub(super) struct EliminatedChain {
     pivots: Vec<Pivot>,
-    /// Rows on the globals and what they make up for: as many as globals.
+    /// Rows on the globals with their right-hand sides, one row per global.
     pub(super) globals: DMatrix<f64>,
 }
 
-/// The rows that give the start of a segment from that of the next, from the globals, and
-/// from what they have to make up for.
+/// Rows that determine the initial state of a segment from that of the next segment, the globals
+/// and the right-hand side.
 struct Pivot {
     own: DMatrix<f64>,
     next: DMatrix<f64>,
@@ -26,13 +26,14 @@ struct Pivot {
 }
 
 impl FitStage {
-    /// Eliminates all starts.
+    /// Eliminates the initial states of all segments.
     pub(super) fn eliminate(
         &self,
         linear: &LinearStage,
         damping: Option<&Damping>,
     ) -> EliminatedChain {
-        // Columns of the globals and of what they make up for, the last ones of all rows.
+        // Number of columns of the globals and of the right-hand side, which are the last columns
+        // of all rows.
         let rest = linear.prior.ncols();
         let mut carried = Rows::new(rest, rest);
         carried.put(&linear.prior);
@@ -81,11 +82,11 @@ impl FitStage {
     }
 }
 
-/// Rows that are put below each other. Rows that are put have columns of a start, or none,
-/// before the last ones.
+/// Rows stacked on each other. A row has columns for an initial state (or none) before the last
+/// columns.
 struct Rows {
     matrix: DMatrix<f64>,
-    /// Number of the last columns.
+    /// Number of last columns.
     rest: usize,
 }
 
@@ -97,7 +98,7 @@ impl Rows {
         }
     }
 
-    /// Makes room for rows; returns the number of those above.
+    /// Appends `count` empty rows, and returns the previous number of rows.
     fn grow(&mut self, count: usize) -> usize {
         let above = self.matrix.nrows();
         let matrix = std::mem::replace(&mut self.matrix, DMatrix::zeros(0, 0));
@@ -126,7 +127,7 @@ impl Rows {
 }
 
 impl EliminatedChain {
-    /// Solves for globals, which are as many as rows, and starts.
+    /// Solves for the globals and the initial states; `None` if the matrix is singular.
     pub(super) fn solve(&self) -> Option<(DVector<f64>, Vec<DVector<f64>>)> {
         let unknowns = self.globals.nrows();
         let triangle = self.globals.columns(0, unknowns);
@@ -140,13 +141,14 @@ impl EliminatedChain {
         Some((globals, starts.collect()))
     }
 
-    /// Returns how the starts change with the globals: a column a global.
+    /// Returns the derivatives of the initial states by the globals, one column per global.
     pub(super) fn responses(&self) -> Option<Vec<DMatrix<f64>>> {
         let unknowns = self.globals.nrows();
         self.back(&DMatrix::identity(unknowns + 1, unknowns))
     }
 
-    /// Starts for columns of globals and, in the last row, of minus the right-hand side.
+    /// Solves for the initial states by back substitution. `columns` contains the values of the
+    /// globals and, in its last row, minus the factor of the right-hand side.
     fn back(&self, columns: &DMatrix<f64>) -> Option<Vec<DMatrix<f64>>> {
         let mut starts: Vec<DMatrix<f64>> = Vec::with_capacity(self.pivots.len());
         for pivot in self.pivots.iter().rev() {
@@ -161,7 +163,7 @@ impl EliminatedChain {
     }
 }
 
-/// Upper triangle, a square, of rows with the same normal equations.
+/// Returns the square upper triangular matrix with the same normal equations as the rows.
 fn triangle(rows: DMatrix<f64>) -> DMatrix<f64> {
     let width = rows.ncols();
     let triangle = match rows.nrows() {

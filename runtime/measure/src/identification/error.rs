@@ -10,47 +10,47 @@ use crate::SmoothingError;
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum IdentificationError {
-    /// A parameter that the model does not have.
+    /// The model has no parameter with this name.
     UnknownParameter {
         /// The name given.
         name: String,
         /// Names that there are.
         parameters: Vec<String>,
     },
-    /// A link that the model does not have.
+    /// The model has no link with this name.
     UnknownLink {
         /// The name given.
         name: String,
         /// Names that there are.
         links: Vec<String>,
     },
-    /// A parameter or a link that is given twice.
+    /// A parameter or a link was given twice.
     Twice {
         /// Name of the parameter or link.
         name: String,
     },
-    /// A parameter that is neither known nor unknown.
+    /// A parameter was given neither as known nor as unknown.
     Missing {
         /// Name of the parameter.
         name: String,
     },
-    /// A number that is not finite, or not positive where it has to be.
+    /// A number is not finite, or not positive although it must be.
     Number {
         /// Meaning of the number.
         what: String,
         /// The number.
         value: f64,
     },
-    /// A start from which no model can be made.
+    /// No model exists with the values at the start of the search.
     Start(ImpossibleValue),
-    /// A time that is not finite or not later than the one before.
+    /// A time is not finite, or not later than the one before.
     Time {
         /// Index of the time.
         index: usize,
         /// The time, s.
         value: f64,
     },
-    /// A link with another number of angles than times.
+    /// The number of angles of a link is not the number of times.
     Length {
         /// Name of the link.
         link: String,
@@ -59,7 +59,7 @@ pub enum IdentificationError {
         /// Number of angles.
         angles: usize,
     },
-    /// An angle that is infinite or NaN.
+    /// A measured angle is infinite or NaN.
     Datum {
         /// Name of the link.
         link: String,
@@ -68,28 +68,28 @@ pub enum IdentificationError {
         /// The angle.
         value: f64,
     },
-    /// Fewer data than numbers to be found.
+    /// There are fewer data than unknowns.
     TooFew {
         /// Number of data.
         found: usize,
-        /// Number of data that are needed, at least.
+        /// Smallest number of data that is needed.
         needed: usize,
     },
-    /// A frequency, or the standard error of one, that is not positive and finite.
+    /// A frequency, or its standard error, is not positive and finite.
     Frequency {
         /// The frequency, Hz.
         hertz: f64,
         /// Standard error of the frequency, Hz.
         deviation: f64,
     },
-    /// A frequency of a mode that the model does not have.
+    /// A frequency was given for a mode that the model does not have.
     Mode {
         /// Number of the mode.
         mode: usize,
         /// Number of modes that oscillate.
         modes: usize,
     },
-    /// Frequencies without the numbers of their modes, which are not one for each mode.
+    /// Frequencies were given without mode numbers, but there is not one for each mode.
     Unnumbered {
         /// Number of frequencies without a number.
         unnumbered: usize,
@@ -98,27 +98,29 @@ pub enum IdentificationError {
         /// Number of modes that oscillate.
         modes: usize,
     },
-    /// No place at which the tree rests was found from hanging on.
+    /// No equilibrium was found near the hanging tree.
     NoRest,
-    /// Velocities at the start could not be estimated from the angles of a link.
+    /// Initial velocities could not be estimated from the angles of a link.
     Velocities {
         /// Name of the link.
         link: String,
         /// The smoother's error.
         error: SmoothingError,
     },
-    /// The motion could not be integrated with the parameters of the start.
+    /// The motion could not be integrated with the parameters at the start of the search.
     NoMotion {
         /// Start of the segment, s.
         time: f64,
     },
-    /// A search that ended nowhere, with the best that it found.
+    /// The search was interrupted before it had found anything.
+    Ended,
+    /// The search has no valid result; contains the best values that it found.
     NotFound(Box<Unfound>),
-    /// A parameter that the data do not determine.
+    /// The data do not determine a parameter.
     NotDetermined {
         /// Name of the parameter.
         name: String,
-        /// Unknowns that can change together with it without a change of the motion.
+        /// Other unknowns: if they change together with this unknown, the motion stays the same.
         with: Vec<String>,
     },
 }
@@ -152,7 +154,7 @@ impl fmt::Display for IdentificationError {
             } => write!(f, "{angles} angles of `{link}` for {times} times"),
             Self::Datum { link, index, value } => write!(
                 f,
-                "angle {index} of `{link}` is {value}; missing ones are none"
+                "angle {index} of `{link}` is {value}; write missing ones as `None`"
             ),
             Self::TooFew { found, needed } => write!(
                 f,
@@ -197,6 +199,10 @@ impl fmt::Display for IdentificationError {
                 f,
                 "the motion from {time} s on cannot be integrated with the parameters of the start"
             ),
+            Self::Ended => write!(
+                f,
+                "the search was interrupted before it had followed any part of the record"
+            ),
             Self::NotFound(unfound) => unfound.fmt(f),
             Self::NotDetermined { name, with } if with.is_empty() => {
                 write!(f, "the data do not determine `{name}`")
@@ -212,11 +218,13 @@ impl fmt::Display for IdentificationError {
 
 impl core::error::Error for IdentificationError {
     fn source(&self) -> Option<&(dyn core::error::Error + 'static)> {
-        match self {
-            Self::Start(error) => Some(error),
-            Self::Velocities { error, .. } => Some(error),
-            _ => None,
+        if let Self::Velocities { error, .. } = self {
+            return Some(error);
         }
+        let Self::Start(error) = self else {
+            return None;
+        };
+        Some(error)
     }
 }
 

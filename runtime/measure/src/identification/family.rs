@@ -1,4 +1,4 @@
-//! Equations of motion for every set of parameters.
+//! Families of equations of motion: one system for each set of parameters.
 
 use core::fmt;
 use core::marker::PhantomData;
@@ -8,14 +8,14 @@ use branched_pendulum::model::ParameterError;
 use branched_pendulum::scalar::{Dual, Scalar};
 use branched_pendulum::system::{AbsoluteAngles, Model, Ode, Parametric};
 
-/// A value that no model of a family can have.
+/// Error: a value is not physical for any model of the family.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ImpossibleValue {
-    /// The quantity, as in "mass of `child`".
+    /// Name of the quantity, such as "mass of `child`".
     pub what: String,
     /// Value of the quantity, in SI units.
     pub value: f64,
-    /// The condition on it, as in "positive".
+    /// Condition that the value violates, such as "positive".
     pub requirement: &'static str,
 }
 
@@ -42,11 +42,11 @@ impl From<ParameterError> for ImpossibleValue {
     }
 }
 
-/// Equations of motion with named parameters. Models of the attribute are such by
-/// [`FamilyOf`]; equations of one's own, torques from outside for example, implement it.
+/// Equations of motion with named parameters. Models of the attribute implement it by [`FamilyOf`];
+/// users can implement it for other equations, such as ones with external torques.
 pub trait Family: Sync {
-    /// The equations for one set of parameters: the state is the angles of the links,
-    /// followed by their velocities.
+    /// The equations for one set of parameters. The state is the angles of the links, followed by
+    /// their velocities.
     type Equations<T: Scalar>: Ode<T>;
 
     /// Names of the parameters, in the order of their values.
@@ -55,23 +55,31 @@ pub trait Family: Sync {
     /// Names of the links, in the order of their angles.
     fn links(&self) -> Vec<String>;
 
-    /// Makes the equations for these values, one for each parameter, taken as they are.
+    /// Creates the equations of motion for the given parameter values, without checking them.
     fn equations<T: Scalar>(&self, values: &[T]) -> Self::Equations<T>;
 
-    /// Refuses values that are impossible.
+    /// Returns true if the parameter with this index is a coefficient of friction and nothing else.
+    /// A fit with a negative friction coefficient shows that the real friction law is different; a
+    /// fit with another unphysical value is invalid.
+    fn is_friction(&self, parameter: usize) -> bool {
+        let _ = parameter;
+        false
+    }
+
+    /// Checks that the values are physical.
     ///
     /// # Errors
     ///
-    /// The first value that no pendulum can have.
+    /// The first value that is not physical.
     fn check(&self, values: &[f64]) -> Result<(), ImpossibleValue>;
 }
 
-/// All models of one description in absolute angles.
+/// Family of all models of one description, in absolute angles.
 #[derive(Debug)]
 pub struct FamilyOf<M>(PhantomData<fn() -> M>);
 
 impl<M> FamilyOf<M> {
-    /// The models of the description that the type `M` stands for.
+    /// Creates the family of the models of type `M`.
     #[must_use]
     pub fn new() -> Self {
         Self(PhantomData)
@@ -103,7 +111,7 @@ impl<M: Parametric<f64>> Family for FamilyOf<M> {
     }
 
     fn links(&self) -> Vec<String> {
-        // Names are the same whatever the values.
+        // Names do not depend on the values.
         let model = M::with_parameters(|_| f64::NAN);
         model.link_names()
     }
@@ -120,11 +128,11 @@ impl<M: Parametric<f64>> Family for FamilyOf<M> {
 /// Number of derivatives that one evaluation carries.
 pub(super) const WIDTH: usize = 8;
 
-/// A number with that many derivatives.
+/// A number with [`WIDTH`] derivatives.
 pub(super) type Wide = Dual<f64, WIDTH>;
 
-/// A [`Family`] in the two kinds of numbers that fitting needs, its type forgotten: what
-/// stands on it is compiled once and not for every family.
+/// A [`Family`] of any type, in the two kinds of numbers that fitting needs. Code that uses it is
+/// compiled once and not for every family.
 pub(super) trait AnyFamily: Sync {
     fn plain(&self, values: &[f64]) -> Box<dyn Ode<f64> + '_>;
     fn wide(&self, values: &[Wide]) -> Box<dyn Ode<Wide> + '_>;
@@ -140,7 +148,7 @@ impl<F: Family> AnyFamily for F {
     }
 }
 
-/// A value by its index; NaN where there is none.
+/// Returns a value by its index; NaN if the index is out of range.
 fn value_at<T: Scalar>(values: &[T], index: usize) -> T {
     let value = values.get(index).copied();
     value.unwrap_or(T::from_f64(f64::NAN))

@@ -6,64 +6,65 @@ use super::convergence::{Convergence, SearchFailure};
 use super::error::IdentificationError;
 use super::family::ImpossibleValue;
 use super::identifiability::Identifiability;
+use super::record::AngleRecord;
 use branched_pendulum::system::State;
 
-/// Parameters that a record determines, with their errors.
+/// Result of an identification: parameters with their errors.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Fit {
-    /// The unknowns, in the order in which they were given; offsets of angles come last.
+    /// The unknowns, in the order in which they were given, followed by the offsets of angles.
     pub estimates: Vec<ParameterEstimate>,
-    /// Products of powers of parameters that the data determine, of those that they do not
-    /// determine one by one.
+    /// Products of powers of parameters that the data determine although they do not determine the
+    /// parameters individually.
     pub ratios: Vec<ParameterEstimate>,
-    /// How the search ended: whether it converged, whether what is left over is the noise.
+    /// How the search ended: if it converged, and if the residuals are noise.
     pub convergence: Convergence,
-    /// Combinations of them that the data determine, and changes that they leave open.
+    /// Combinations of the unknowns that the data determine, and changes that they leave open.
     pub identifiability: Identifiability,
-    /// The frequencies that were measured, beside those of the model.
+    /// The measured frequencies, together with those of the model.
     pub frequencies: Vec<FittedFrequency>,
-    /// Unknowns with other values by which frequencies alone are met as well, if some were found:
-    /// parameters in the order of [`estimates`](Self::estimates).
+    /// Other sets of values that fit the frequencies equally well, if only frequencies were fitted
+    /// and such sets were found; in the order of [`estimates`](Self::estimates).
     pub alternatives: Vec<Vec<f64>>,
-    /// The states at the starts of the last stage's segments.
+    /// The initial states of the segments in the last stage.
     pub starts: Vec<State<f64>>,
-    /// The last time of the record that was fitted, s.
+    /// Last time of the fitted record, in s.
     pub(super) until: Option<f64>,
-    /// The stages, from short segments to long ones.
+    /// The stages of the fit, from short segments to long ones.
     pub stages: Vec<StageReport>,
-    /// Number of blocks of time from which the second kind of deviations is.
+    /// Number of blocks of time from which the standard deviations by blocks are computed.
     pub blocks: usize,
-    /// The first value found that no pendulum can have: a friction below zero says that the law of
-    /// friction is another one, an inertia below zero that something is held where it is not.
+    /// The first value found that is not physical. Negative friction means that the real friction
+    /// law is different; a negative inertia means that a parameter is fixed at a wrong value.
     pub impossible: Option<ImpossibleValue>,
-    /// Values of all parameters of the model.
+    /// Values of all parameters of the model, in order.
     pub(super) values: Vec<f64>,
-    /// Offset of each measured link, rad.
+    /// Offset of each measured link's angles, in rad.
     pub(super) offsets: Vec<(String, f64)>,
 }
 
 /// An unknown that was found.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ParameterEstimate {
-    /// Name of the parameter, or `offset of LINK`, or factors and divisors of a ratio.
+    /// Name of the parameter; `offset of LINK`; or factors and divisors of a ratio.
     pub name: String,
     /// The value.
     pub value: f64,
-    /// What the value stands on.
+    /// Evidence for the value.
     pub standing: Standing,
-    /// Standard deviation, as if errors of the angles were independent of each other. None
-    /// for what is held, and infinite where nothing can be said.
+    /// Naive standard deviation, which assumes that errors of the angles are independent. `None`
+    /// for fixed unknowns, infinite if the data do not limit the value.
     pub naive: Option<f64>,
-    /// Standard deviation by how the estimate changes when blocks of the record are left
-    /// out: the one to trust where what is left over is not white. With few blocks it
-    /// belongs to Student's distribution of as many degrees of freedom, less one. None of
-    /// frequencies alone, whose standard errors are known.
+    /// Standard deviation computed from the change of the estimate when blocks of the record are
+    /// left out; it is the reliable one if residuals are not white. With few blocks, use Student's
+    /// distribution with one degree of freedom less than blocks. `None` if only frequencies were
+    /// fitted, whose standard errors are known.
     pub by_blocks: Option<f64>,
 }
 
 impl ParameterEstimate {
-    /// Returns the standard deviation to go by, the larger of the two: blocks see errors that
-    /// are not independent, and are so few that they may find too little.
+    /// Returns the standard deviation to use, which is the larger of the two: blocks account for
+    /// errors that are not independent, but with few blocks the result may be too small.
     #[must_use]
     pub fn deviation(&self) -> Option<f64> {
         let naive = self.naive?;
@@ -74,45 +75,46 @@ impl ParameterEstimate {
     }
 }
 
-/// What the value of an unknown stands on.
+/// How the value of an unknown was determined.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Standing {
     /// The data alone.
     Determined,
-    /// The data, and the values at which these others are held: as wrong as they are.
+    /// By the data, together with the values at which these other unknowns are fixed; errors of
+    /// those values affect this one.
     GoesWith(Vec<String>),
-    /// The value that the search had when the data turned out to leave it open, mostly the start.
+    /// Fixed by the search, because the data do not determine it; usually at its start value.
     Held,
-    /// A bound, beyond which the data would have it.
+    /// At a bound, because the data favour values beyond it.
     AtBound,
 }
 
-/// A stage of a fit: segments of one length.
+/// A stage of a fit, in which all segments have one length.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StageReport {
     /// Number of segments.
     pub segments: usize,
     /// Length of a segment, s.
     pub length: f64,
-    /// Root mean square of angles less data, rad.
+    /// Root mean square of the residuals (angles of the model minus data), in rad.
     pub rms: f64,
     /// Number of steps.
     pub steps: usize,
 }
 
 impl Fit {
-    /// Returns the value of an unknown.
+    /// Returns the value of an unknown by its name; `None` if there is none.
     #[must_use]
     pub fn value(&self, name: &str) -> Option<f64> {
         self.estimate(name).map(|estimate| estimate.value)
     }
 
-    /// Returns an unknown that has a value of its own.
+    /// Returns an unknown that the data determine individually.
     ///
     /// # Errors
     ///
-    /// [`IdentificationError::NotDetermined`] where others can change together with it of
-    /// which the data show nothing, [`IdentificationError::UnknownParameter`].
+    /// [`IdentificationError::NotDetermined`] if it can change together with others without effect
+    /// on the data, and [`IdentificationError::UnknownParameter`].
     pub fn determined(&self, name: &str) -> Result<&ParameterEstimate, IdentificationError> {
         let names = || self.estimates.iter().map(|estimate| estimate.name.clone());
         let unknown = || IdentificationError::UnknownParameter {
@@ -132,26 +134,35 @@ impl Fit {
         })
     }
 
-    /// Values of all parameters of the model, in their order.
+    /// Returns the values of all parameters of the model, in order.
     #[must_use]
     pub fn parameters(&self) -> &[f64] {
         &self.values
     }
 
-    /// Root mean square of angles less data in the last stage, rad; NaN of frequencies alone.
+    /// Returns the root mean square of the residuals in the last stage, in rad; NaN if only
+    /// frequencies were fitted.
     #[must_use]
     pub fn rms(&self) -> f64 {
         self.stages.last().map_or(0.0, |stage| stage.rms)
     }
 
-    /// Returns the offset of a link's angles, 0 where none was asked for.
+    /// Returns the offset of a link's angles in rad; 0 if no offset was fitted.
     #[must_use]
     pub fn offset(&self, link: &str) -> f64 {
         let offset = self.offsets.iter().find(|(name, _)| name == link);
         offset.map_or(0.0, |(_, offset)| *offset)
     }
 
-    /// Takes away what may be said of a result alone.
+    /// Returns the friction coefficient that is negative by more than its error bar, if there is
+    /// one. Such a fit has no standard deviations, because the real friction law is different.
+    #[must_use]
+    pub fn driving_friction(&self) -> Option<&ImpossibleValue> {
+        let has_deviations = self.estimates.iter().any(|own| own.naive.is_some());
+        self.impossible.as_ref().filter(|_| !has_deviations)
+    }
+
+    /// Removes the standard deviations, which are meaningful only for a valid result.
     pub(super) fn without_deviations(mut self) -> Self {
         for estimate in self.estimates.iter_mut().chain(&mut self.ratios) {
             (estimate.naive, estimate.by_blocks) = (None, None);
@@ -159,7 +170,7 @@ impl Fit {
         self
     }
 
-    /// The states at the starts of the segments.
+    /// Returns the initial states of the segments.
     pub(super) fn start_states(&self) -> Vec<Vec<f64>> {
         let states = self.starts.iter().map(|start| start.values.clone());
         states.collect()
@@ -170,25 +181,36 @@ impl Fit {
     }
 }
 
-/// Angles less data at every time, and link by link.
+/// Errors of a model: its angles minus the data at every time, link by link.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct AngleErrors {
     /// Times, s.
     pub times: Vec<f64>,
     /// Names of the links.
     pub links: Vec<String>,
-    /// Model less data (rad), a row a time; none where there are no data.
+    /// Model minus data (rad), one row per time; `None` where data are missing.
     pub rows: Vec<Vec<Option<f64>>>,
 }
 
 impl AngleErrors {
-    /// Root mean square of all, rad.
+    /// Creates the error estimates of a record whose errors are unknown.
+    #[must_use]
+    pub fn missing(record: &AngleRecord) -> Self {
+        let times = record.times().to_vec();
+        Self {
+            rows: vec![vec![None; record.links.len()]; times.len()],
+            links: record.links.iter().map(|link| link.name.clone()).collect(),
+            times,
+        }
+    }
+
+    /// Returns the root mean square of all errors, in rad.
     #[must_use]
     pub fn rms(&self) -> f64 {
         self.rms_between(f64::NEG_INFINITY, f64::INFINITY)
     }
 
-    /// Root mean square from a time on and before another, rad.
+    /// Returns the root mean square of the errors from one time up to another (exclusive), in rad.
     #[must_use]
     pub fn rms_between(&self, from: f64, until: f64) -> f64 {
         let rows = self.times.iter().zip(&self.rows);
@@ -201,35 +223,36 @@ impl AngleErrors {
     }
 }
 
-/// A measured frequency beside that of the model.
+/// A measured frequency, and the corresponding frequency of the model.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FittedFrequency {
-    /// Number of its mode, 1 for the slowest of those that oscillate.
+    /// Number of the mode; 1 is the slowest of the oscillating modes.
     pub mode: usize,
     /// The measured frequency, Hz.
     pub hertz: f64,
     /// Standard error of the measured frequency, Hz.
     pub deviation: f64,
-    /// The frequency of the model, Hz.
+    /// Frequency of the model, in Hz.
     pub fitted: f64,
 }
 
 impl FittedFrequency {
-    /// Returns by how many standard errors the model is above the datum.
+    /// Returns the model's frequency minus the measured one, in standard errors.
     #[must_use]
     pub fn residual(&self) -> f64 {
         (self.fitted - self.hertz) / self.deviation
     }
 }
 
-/// What a search found that is no result: the best of it, without deviations.
+/// Result of a search that found no valid fit: the reason, and the best values (without standard
+/// deviations).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Unfound {
     /// Why it is none.
     pub failure: SearchFailure,
-    /// The time at which the links are released, where the record begins before, s.
+    /// Time at which the links are released, if the record begins before, in s.
     pub release: Option<f64>,
-    /// The best that was found, without deviations.
+    /// The best values that were found, without standard deviations.
     pub best: Fit,
 }
 
@@ -257,6 +280,24 @@ impl fmt::Display for Unfound {
                 "every start ended elsewhere; try starts nearer to the truth, or give more of \
                  the parameters"
             ),
+            SearchFailure::Exhausted => write!(
+                f,
+                "the search has made as many evaluations as a record of this size allows, which \
+                 happens if the tree is another one, the unit of the angles is wrong, or the motion is \
+                 chaotic; check these with a shorter part of the record, or give more of the parameters"
+            ),
+            SearchFailure::Interrupted => write!(f, "the search was interrupted"),
+            SearchFailure::Unphysical => {
+                match &self.best.impossible {
+                    Some(impossible) => write!(f, "{impossible}")?,
+                    None => write!(f, "the constants are not physical")?,
+                }
+                write!(
+                    f,
+                    "; give more of the parameters, since one that is known may be wrong, or try a \
+                     tree that is nearer to the real one"
+                )
+            }
         }?;
         match self.release {
             Some(time) => write!(

@@ -1,4 +1,4 @@
-//! The unknowns at the end of a search, with what the data say of each.
+//! Estimates of the unknowns at the end of a search, with their uncertainties.
 
 use nalgebra::DMatrix;
 
@@ -8,24 +8,24 @@ use super::identifiability::{OpenDirections, SHARE};
 use super::ratios::Ratios;
 use super::task::FitTask;
 
-/// By how much an unknown that is held may be off, of its size.
+/// Relative error that is assumed for an unknown that is held fixed.
 const HELD: f64 = 0.3;
 
-/// Globals that are fitted, and what their standard deviations follow from.
+/// Fitted globals, with the matrices from which their standard deviations are computed.
 pub(super) struct FittedGlobals<'a> {
     pub(super) task: &'a FitTask<'a>,
     pub(super) globals: &'a [f64],
     pub(super) open: OpenDirections,
-    /// Globals that are neither held nor at a bound.
+    /// Indices of the globals that are neither held fixed nor at a bound.
     pub(super) free: Vec<usize>,
     pub(super) curvature: Curvature,
-    /// Variance of the data, in those that were given.
+    /// Variance of the data, in units of the squared standard deviations given for them.
     pub(super) variance: f64,
     pub(super) blocks: Option<TimeBlocks>,
 }
 
 impl FittedGlobals<'_> {
-    /// The unknowns, one by one.
+    /// Returns the estimates of all unknowns.
     pub(super) fn estimates(&self) -> Vec<ParameterEstimate> {
         let mut singles = DMatrix::zeros(self.free.len(), self.free.len());
         for (row, &global) in self.free.iter().enumerate() {
@@ -48,7 +48,8 @@ impl FittedGlobals<'_> {
         self.task.names.iter().enumerate().map(estimate).collect()
     }
 
-    /// Products of powers of those that the data leave open one by one.
+    /// Returns estimates of products of powers of those unknowns that the data do not determine
+    /// individually.
     pub(super) fn ratios(&self, estimates: &[ParameterEstimate]) -> Vec<ParameterEstimate> {
         let (task, globals) = (self.task, self.globals);
         let ratios = Ratios::new(task, globals, estimates, &self.open.changes);
@@ -58,8 +59,8 @@ impl FittedGlobals<'_> {
         ratios.estimates(task, globals, &naive, by_blocks)
     }
 
-    /// Standard deviations of combinations of the free globals, a row each: by the curvature
-    /// alone, and by blocks of time; infinite where there are none.
+    /// Returns two standard deviations for each of the combinations (rows) of the free globals:
+    /// from the curvature only, and from blocks of time. Infinite if they cannot be computed.
     fn deviations(&self, combinations: &DMatrix<f64>) -> [Vec<f64>; 2] {
         let none = || vec![f64::INFINITY; combinations.nrows()];
         let blocks = self.blocks.as_ref();
@@ -74,11 +75,11 @@ impl FittedGlobals<'_> {
         !self.task.times.is_empty()
     }
 
-    /// What is known of an unknown with this standard deviation.
+    /// Returns how an unknown with this naive standard deviation was determined.
     fn standing(&self, index: usize, naive: Option<f64>) -> Standing {
         let value = self.globals[index];
         let is_bound = self.task.is_at_bound(index, value);
-        // What came to its bound before it was held did so by the data.
+        // An unknown that reached its bound before it was held got there by the data.
         if is_bound && value != self.task.start(index) {
             return Standing::AtBound;
         }
@@ -88,17 +89,18 @@ impl FittedGlobals<'_> {
         if is_bound {
             return Standing::AtBound;
         }
-        let with = self.goes_with(index, naive);
+        let with = self.fixed_partners(index, naive);
         match with.is_empty() {
             true => Standing::Determined,
             false => Standing::GoesWith(with),
         }
     }
 
-    /// The unknowns that are held with which this one changes.
-    fn goes_with(&self, index: usize, naive: Option<f64>) -> Vec<String> {
+    /// Returns the names of the fixed unknowns whose values affect this one.
+    fn fixed_partners(&self, index: usize, naive: Option<f64>) -> Vec<String> {
         let with = self.open.held.iter().enumerate().filter(|&(column, _)| {
-            // What is held may be off; it matters where the bar does not cover it.
+            // A held unknown may be wrong; this matters where the error bar does not cover the
+            // effect.
             let change = self.open.changes[(index, column)].abs();
             let size = change * self.task.unit(self.globals, index);
             change > SHARE || naive.is_some_and(|bar| HELD * size > 0.5 * bar)

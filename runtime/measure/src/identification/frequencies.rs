@@ -1,4 +1,4 @@
-//! Frequencies of small motions, as data beside trajectories or in place of them.
+//! Frequencies of small motions, as data in addition to trajectories or instead of them.
 
 use nalgebra::{DMatrix, DVector, Schur};
 
@@ -8,32 +8,35 @@ use super::sensitivity::Sensitivities;
 use super::task::{FitTask, FrequencyDatum};
 use branched_pendulum::system::Ode;
 
-/// A measured frequency of a small motion about rest.
+/// A measured frequency of a small motion about equilibrium.
 ///
-/// Modes are those without friction: what is viscous lowers a frequency by the share ζ²/2, with ζ
-/// the damping ratio, and dry friction does not. A drive acts as at time 0.
+/// It is compared with the modes without friction: viscous friction lowers a frequency by the
+/// relative amount ζ²/2 with the damping ratio ζ, and dry friction does not. A drive has its value
+/// at time 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Frequency {
-    /// The frequency, Hz.
+    /// Value of the frequency, Hz.
     pub hertz: f64,
     /// Standard error of the frequency, Hz.
     pub deviation: f64,
-    /// Number of its mode, 1 for the slowest of those that oscillate. Frequencies of which none
-    /// has a number are as many as these modes, and belong to them in ascending order.
+    /// Number of the mode, 1 for the slowest of those that oscillate. If no frequency has a number,
+    /// there must be one for each of these modes, in ascending order.
     pub mode: Option<usize>,
 }
 
-/// Relative step of the difference quotients: their error is its square.
+/// Relative step of difference quotients; their relative error is the square of it.
 const STEP: f64 = 1e-5;
-/// Steps to the place of rest at most, the largest of one, and that after which there is none, rad.
+/// Largest number of Newton steps to the equilibrium; then the largest step, and the step at which
+/// the search ends, in rad.
 const STEPS_TO_REST: usize = 100;
 const LONGEST_STEP: f64 = 0.5;
 const AT_REST: f64 = 1e-12;
-/// Part of the square of the fastest mode's rate below which one does not oscillate.
+/// Squared frequency, relative to that of the fastest mode, below which a mode does not oscillate.
 const ROUNDING: f64 = 1e-12;
 
 impl FitTask<'_> {
-    /// Accelerations of links that rest at these angles, and their slopes by the angles.
+    /// Returns the accelerations of the links at rest at the given angles, and their derivatives by
+    /// the angles.
     fn at_rest(&self, system: &Sensitivities<'_>, angles: &[f64]) -> (DVector<f64>, DMatrix<f64>) {
         let links = angles.len();
         let mut state = angles.to_vec();
@@ -42,12 +45,12 @@ impl FitTask<'_> {
         let mut rates = vec![0.0; start.len()];
         system.rates(0.0, &start, &mut rates);
         let accelerations = DVector::from_column_slice(&rates[links..2 * links]);
-        let slope = |link, angle| rates[system.place(angle, links + link)];
+        let slope = |link, angle| rates[system.state_index(angle, links + link)];
         (accelerations, DMatrix::from_fn(links, links, slope))
     }
 
-    /// Slopes of the accelerations at the place of rest that Newton's steps reach from hanging;
-    /// none where they reach none.
+    /// Returns the derivatives of the accelerations at the equilibrium that Newton's method reaches
+    /// from the hanging tree; `None` if it does not converge.
     fn slopes_at_rest(&self, globals: &[f64]) -> Option<DMatrix<f64>> {
         let values = self.parameters(globals);
         let system = Sensitivities::new(self.family, self.dimension, &values, &[]);
@@ -57,7 +60,7 @@ impl FitTask<'_> {
             if !slopes.iter().all(|slope| slope.is_finite()) {
                 return None;
             }
-            // Links that nothing turns back stay where they are.
+            // Links without restoring torque stay where they are.
             if accelerations.amax() == 0.0 {
                 return Some(slopes);
             }
@@ -74,8 +77,8 @@ impl FitTask<'_> {
         None
     }
 
-    /// Frequencies (Hz) of all modes that oscillate without friction, from the slowest on; none
-    /// where the tree comes to no rest.
+    /// Returns the frequencies (Hz) of all oscillating modes without friction, ascending; `None` if
+    /// there is no equilibrium.
     fn modes(&self, globals: &[f64]) -> Option<Vec<f64>> {
         let schur = Schur::try_new(-self.slopes_at_rest(globals)?, f64::EPSILON, 10_000)?;
         let squares: Vec<f64> = schur.complex_eigenvalues().iter().map(|v| v.re).collect();
@@ -90,7 +93,7 @@ impl FitTask<'_> {
         Some(modes)
     }
 
-    /// Frequencies of the model beside the data.
+    /// Returns the frequencies of the model together with the measured ones.
     pub(super) fn fitted_frequencies(&self, globals: &[f64]) -> Option<Vec<FittedFrequency>> {
         if self.frequencies.is_empty() {
             return Some(Vec::new());
@@ -107,15 +110,16 @@ impl FitTask<'_> {
         self.frequencies.iter().map(fitted).collect()
     }
 
-    /// Frequencies less data: in standard errors, times the errors of the angles beside which
-    /// they stand.
+    /// Returns the frequencies of the model minus the data, in units of their standard errors,
+    /// multiplied by `beside`, the error of the angles that are fitted together with them.
     pub(super) fn frequency_residuals(&self, globals: &[f64], beside: f64) -> Option<Vec<f64>> {
         let fitted = self.fitted_frequencies(globals)?;
         Some(fitted.iter().map(|own| beside * own.residual()).collect())
     }
 
-    /// Rows on these globals and what they have to make up for. Differences of frequencies,
-    /// not derivatives of eigenvalues, so that equal ones are no special case.
+    /// Returns the rows of the frequencies in the least-squares problem, for the given globals.
+    /// They are difference quotients of frequencies and not derivatives of eigenvalues, so that
+    /// equal frequencies need no special treatment.
     pub(super) fn frequency_rows(
         &self,
         globals: &[f64],
@@ -145,7 +149,8 @@ impl FitTask<'_> {
         Some(rows)
     }
 
-    /// Finds the mode of each frequency, with these globals.
+    /// Assigns a mode of the tree to each measured frequency; `globals` are the unknown parameters,
+    /// which determine the tree's modes.
     pub(super) fn assigned(
         &self,
         frequencies: &[Frequency],

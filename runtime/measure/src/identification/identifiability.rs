@@ -7,53 +7,56 @@ use nalgebra::DMatrix;
 use super::convergence::digits;
 use super::task::FitTask;
 
-/// Relative size of a singular value that is taken for zero: what is left of exact
-/// dependences after integration with a finite tolerance.
+/// Relative size below which a singular value counts as zero: exact dependences are disturbed by
+/// the finite tolerance of the integration.
 const ZERO: f64 = 1e-7;
-/// Square of a share, of that of the largest one, that is large.
+/// Squared share, relative to that of the largest one, from which on it counts as large.
 const LARGE: f64 = 0.1;
-/// Share in an open change that counts.
+/// Smallest share in an open change that is reported.
 pub(super) const SHARE: f64 = 1e-3;
 
-/// Combinations that the data determine, by a singular value decomposition of the derivatives
-/// of all data with respect to relative changes of the parameters (and to offsets, rad).
+/// Combinations of unknowns that the data determine, by a singular value decomposition of the
+/// derivatives of all data with respect to relative changes of the parameters (and to offsets,
+/// rad).
 ///
-/// Equations of motion know ratios only: masses, inertias and friction may all be twice as
-/// large. Such changes are told, and those that data with this noise cannot tell from none.
+/// Equations of motion depend on ratios only: if all masses, inertias and friction coefficients are
+/// doubled, the motion stays the same. Such changes are listed, and so are changes whose effect is
+/// hidden by the noise of the data.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Identifiability {
-    /// Number of unknown numbers.
+    /// Number of unknowns.
     pub unknown: usize,
-    /// Singular values in falling order: one over each is the standard deviation of a
+    /// Singular values in descending order. The inverse of each is the standard deviation of a
     /// combination of relative changes.
     pub singular_values: Vec<f64>,
-    /// Changes that the data leave open; all others are determined.
+    /// Changes that the data leave open; all changes orthogonal to them are determined.
     pub open: Vec<OpenChange>,
 }
 
-/// A change of several unknowns together of which the data show nothing.
+/// A change of several unknowns together that has no effect on the data.
 #[derive(Clone, Debug, PartialEq)]
 pub struct OpenChange {
-    /// The unknown that is held where it was, so that the others have values.
+    /// Name of the unknown that is fixed at its start value, so that the others can be determined.
     pub held: String,
-    /// Relative changes (of offsets: rad) of the others, for one of the unknown that is held.
+    /// Relative changes (for offsets in rad) of the other unknowns, for a relative change of 1 of
+    /// the fixed unknown.
     pub others: Vec<(String, f64)>,
 }
 
-/// Directions that the data leave open, and the unknowns that are held for them.
+/// Directions that the data leave open, and the unknowns that are fixed because of them.
 pub(super) struct OpenDirections {
-    /// In falling order.
+    /// Singular values in descending order.
     singular_values: Vec<f64>,
-    /// Relative changes (of offsets: rad) of all unknowns, a column for each that is held, by
-    /// which that one changes by one.
+    /// Relative changes (for offsets in rad) of all unknowns, one column per fixed unknown, which
+    /// itself changes by 1.
     pub(super) changes: DMatrix<f64>,
     pub(super) held: Vec<usize>,
 }
 
 impl FitTask<'_> {
-    /// Decomposes the triangle of the normal equations of these globals, in standard
-    /// deviations of the data, whose own is `deviation` in those that were given; `first` to be
-    /// held are those that were held already.
+    /// Decomposes the triangle of the normal equations of these globals. `deviation` is the
+    /// standard deviation of the data, in units of the given ones. Unknowns in `first`, which were
+    /// fixed before, are fixed again if possible.
     pub(super) fn open_directions(
         &self,
         globals: &[f64],
@@ -69,7 +72,7 @@ impl FitTask<'_> {
         }
         let decomposed = matrix.svd(false, true);
         let values = decomposed.singular_values.as_slice();
-        // Open is what is not known to its own size.
+        // A combination is open if its standard deviation exceeds its size.
         let largest = values
             .iter()
             .fold(0.0, |most, &value| f64::max(most, value));
@@ -94,7 +97,8 @@ impl FitTask<'_> {
         }
     }
 
-    /// A relative change of one: of a parameter its size, of an offset 1 rad.
+    /// Returns the change of a global that counts as a relative change of 1: the size of a
+    /// parameter, or 1 rad for an offset.
     pub(super) fn unit(&self, globals: &[f64], index: usize) -> f64 {
         match self.unknown.get(index) {
             Some(_) if globals[index] != 0.0 => globals[index].abs(),
@@ -105,8 +109,8 @@ impl FitTask<'_> {
 }
 
 impl OpenDirections {
-    /// What it says in words of these names.
-    pub(super) fn tell(self, names: &[String]) -> Identifiability {
+    /// Converts the result to one with the names of the unknowns.
+    pub(super) fn with_names(self, names: &[String]) -> Identifiability {
         let Self {
             singular_values,
             changes,
@@ -127,9 +131,10 @@ impl OpenDirections {
     }
 }
 
-/// One unknown for each column, each with a large share in what the ones before leave of the
-/// columns: one of `first`, or the first of all, as they were given. (The one of largest share
-/// may be an inertia, which leaves no finite masses where the real one is nought.)
+/// Selects the unknowns to fix, one for each column of `basis`. Each has a large share in the part
+/// of the columns that the ones before do not explain; unknowns in `first` are preferred, otherwise
+/// the first in their order is taken. (The one with the largest share might be an inertia, which
+/// leads to infinite masses if the true inertia is zero.)
 fn held(basis: &DMatrix<f64>, first: &[usize]) -> Vec<usize> {
     let mut rest = basis.clone();
     let mut held = Vec::new();
@@ -161,19 +166,19 @@ impl OpenChange {
 }
 
 impl Identifiability {
-    /// Number of combinations that the data determine.
+    /// Returns the number of combinations that the data determine.
     #[must_use]
     pub fn determined(&self) -> usize {
         self.unknown - self.open.len()
     }
 
-    /// Unknowns that can change together with this one, of which the data then show nothing:
-    /// none where it is determined by itself.
+    /// Returns the names of the unknowns that can change together with this one without effect on
+    /// the data; empty if it is determined individually.
     #[must_use]
     pub fn together_with(&self, name: &str) -> Vec<String> {
         let mut all = vec![name.to_owned()];
         let mut changes: Vec<&OpenChange> = self.open.iter().collect();
-        // One change after the other is a change, too.
+        // Two changes one after the other are a change, too.
         while let Some(place) = changes.iter().position(|change| change.has_one_of(&all)) {
             let OpenChange { held, others } = changes.swap_remove(place);
             all.extend(others.iter().map(|(name, _)| name).chain([held]).cloned());

@@ -1,4 +1,4 @@
-//! Levenberg–Marquardt iteration over a chain of segments.
+//! Levenberg–Marquardt iteration for a chain of segments.
 
 use std::ops::Range;
 
@@ -6,61 +6,61 @@ use nalgebra::DMatrix;
 
 use super::task::{FitTask, LinearSegment};
 
-/// Steps of one stage at most.
+/// Largest number of steps of one stage.
 const STEPS: usize = 100;
-/// Shares of the sum of squares below which a gain ends the iteration: of early stages, which
-/// only lead to the next one and are integrated no better, and of the last.
+/// Relative decrease of the sum of squares below which the iteration ends: in early stages, which
+/// only lead to the next one and are integrated less accurately, and in the last stage.
 pub(super) const ROUGH: f64 = 3e-3;
 pub(super) const FULL: f64 = 2e-6;
-/// Steps that together gain a share of no more than this are a walk along a valley without end:
-/// a model that does not hold has such.
+/// Number of steps that together must decrease the sum of squares by more than this share.
+/// Otherwise the iteration moves along a valley without end, as happens with wrong models.
 const WALK: usize = 10;
 const WALKED: f64 = 1e-3;
-/// Share of the sum of squares that integration makes uncertain where a motion is long: a
-/// smaller loss after a step is none, and ends the iteration too.
+/// Relative uncertainty of the sum of squares caused by the integration of long motions. A smaller
+/// increase after a step does not count, and ends the iteration too.
 const UNCERTAIN: f64 = 1e-4;
-/// Root mean square of residuals, in deviations, at which nothing is left to be done.
+/// Root mean square of residuals, in standard deviations, at which the iteration ends.
 const NOTHING: f64 = 1e-8;
-/// Times that angles and frequencies are weighed against each other at most, and the share of the
-/// angles' errors by which those may change to be the same.
+/// Largest number of times that the relative weights of angles and frequencies are adjusted, and
+/// the relative change of the angles' errors that counts as none.
 const WEIGHINGS: usize = 10;
 const SAME_WEIGHT: f64 = 1e-3;
-/// Damping: its start, what it is multiplied and divided by, its bounds.
+/// Initial damping; the next constants are its factors of increase and decrease, and its bounds.
 pub(super) const DAMPING: f64 = 1e-3;
 const MORE: f64 = 6.0;
 const LESS: f64 = 10.0;
 const DAMPING_RANGE: [f64; 2] = [1e-10, 1e10];
 
-/// Damping below which steps are as good as those of Gauss and Newton.
+/// Damping below which steps count as Gauss–Newton steps.
 const NEARLY_FREE: f64 = 1e-2;
 
-/// Share of the sum of squares that another choice has to leave at most, to be followed by one
-/// more.
+/// Largest sum of squares, relative to the previous one, at which another choice of fixed unknowns
+/// is worth trying.
 const WORTH: f64 = 0.99;
 
-/// Segments, with the estimate that belongs to them.
+/// Segments of a stage, with the present estimate.
 #[derive(Clone, Debug)]
 pub(super) struct FitStage {
     pub(super) segments: Vec<Range<usize>>,
     pub(super) starts: Vec<Vec<f64>>,
     pub(super) globals: Vec<f64>,
-    /// Globals that are fitted; the others stay as they are.
+    /// Indices of the globals that are fitted; the others stay fixed.
     pub(super) free: Vec<usize>,
-    /// Weights of the jump from a segment to the next.
+    /// Weights of the jump between the end of a segment and the start of the next.
     pub(super) junction: Vec<f64>,
-    /// Errors of the angles, in the deviations that were given: by them frequencies weigh, whose
-    /// standard errors are what they are. 1 without angles.
+    /// Errors of the angles, in units of the given standard deviations. It sets the weight of
+    /// frequencies, whose standard errors are absolute. 1 if there are no angles.
     pub(super) spread: f64,
-    /// Damping of the next step. Longer segments go on with that of shorter ones.
+    /// Damping of the next step. Longer segments start with the damping of shorter ones.
     pub(super) damping: f64,
 }
 
-/// Residuals of a stage, in deviations.
+/// Residuals of a stage, in standard deviations.
 #[derive(Clone)]
 pub(super) struct Residuals {
     /// Residuals of angles, segment by segment.
     pub(super) angles: Vec<Vec<f64>>,
-    /// States at the ends of segments.
+    /// States at the ends of the segments.
     ends: Vec<Vec<f64>>,
     /// Sum of squares of all.
     pub(super) squares: f64,
@@ -84,16 +84,16 @@ pub(super) struct LinearStage {
     pub(super) prior: DMatrix<f64>,
 }
 
-/// How far a step may go: rows √λ D x = 0.
+/// Limit on the length of a step: additional rows √λ D x = 0.
 pub(super) struct Damping {
-    /// √λ D of the components of each start.
+    /// Factors √λ D for the components of each initial state.
     pub(super) starts: Vec<Vec<f64>>,
     /// √λ D of the globals.
     pub(super) globals: Vec<f64>,
 }
 
 impl FitStage {
-    /// Makes one of every two segments.
+    /// Joins every two neighbouring segments into one.
     pub(super) fn merge(&mut self) {
         let pairs = self.segments.chunks(2);
         let merged = pairs.filter_map(|pair| Some(pair.first()?.start..pair.last()?.end));
@@ -105,7 +105,7 @@ impl FitStage {
         });
     }
 
-    /// The residuals; none where there is no such model or motion.
+    /// Computes the residuals; `None` if there is no such model or motion.
     pub(super) fn residuals(&self, task: &FitTask<'_>) -> Option<Residuals> {
         let frequencies = task.frequency_residuals(&self.globals, self.spread)?;
         let of_frequencies = sum_of_squares(&frequencies);
@@ -132,8 +132,8 @@ impl FitStage {
         })
     }
 
-    /// Variance of the angles, in the deviations that were given: what is left over of them for
-    /// each that is no more than the unknowns. 1 without angles.
+    /// Returns the variance of the angles in units of the given standard deviations: the sum of
+    /// squared residuals divided by the number of data minus unknowns. 1 if there are no angles.
     pub(super) fn variance(&self, task: &FitTask<'_>, residuals: &Residuals) -> f64 {
         let angles: usize = residuals.angles.iter().map(Vec::len).sum();
         if angles == 0 {
@@ -163,11 +163,11 @@ impl FitStage {
         })
     }
 
-    /// Solves a stage, with those unknowns held that no data of this kind determine.
+    /// Solves a stage, with those unknowns fixed that data of this kind cannot determine.
     ///
-    /// Where they are held they may leave no real value to others, as a mass whose inertia
-    /// is too large for what both turn like: the motion is then not reached, the open
-    /// directions have turned, and others are held from there on.
+    /// The fixed values may not allow real values of others, as a mass whose inertia is too large.
+    /// Then the fit does not reach the motion, the open directions change, and other unknowns are
+    /// fixed from there on.
     pub(super) fn solve_determined(
         &mut self,
         task: &FitTask<'_>,
@@ -178,14 +178,21 @@ impl FitStage {
         let (mut before, mut steps) = (known.squares, 0);
         for choice in 1.. {
             self.free = (0..task.names.len()).collect();
-            let linear = self.linearise(task, &known)?;
+            let Some(linear) = self.linearise(task, &known) else {
+                return task.effort.is_over().then_some(Solved {
+                    residuals: known,
+                    steps,
+                    held: Vec::new(),
+                });
+            };
             let globals = self.eliminate(&linear, None).globals;
             let held = task.open_directions(&self.globals, &globals, 0.0, &[]).held;
             self.free.retain(|global| !held.contains(global));
             let linear = linear.only(&self.free);
             let (residuals, more) = self.solve_from(task, settled, known, linear)?;
             steps += more;
-            if choice >= choices || residuals.squares > WORTH * before {
+            let is_last = choice >= choices || task.effort.is_over();
+            if is_last || residuals.squares > WORTH * before {
                 return Some(Solved {
                     residuals,
                     steps,
@@ -198,9 +205,9 @@ impl FitStage {
         None
     }
 
-    /// Solves a stage as [`solve_determined`](Self::solve_determined) does; with angles and
-    /// frequencies until both weigh as the errors of the angles say that are left over, which
-    /// is where their likelihood is largest.
+    /// Solves a stage as [`solve_determined`](Self::solve_determined) does; if there are both
+    /// angles and frequencies, the weights are adjusted until they agree with the residuals of the
+    /// angles, which maximises the likelihood.
     pub(super) fn solve_weighed(
         &mut self,
         task: &FitTask<'_>,
@@ -215,7 +222,7 @@ impl FitStage {
             let spread = self.variance(task, &solved.residuals).sqrt().max(NOTHING);
             let is_same = (spread - self.spread).abs() <= SAME_WEIGHT * self.spread;
             self.spread = spread;
-            if is_same {
+            if is_same || task.effort.is_over() {
                 return Some(solved);
             }
             let steps = solved.steps;
@@ -226,9 +233,9 @@ impl FitStage {
         None
     }
 
-    /// Iterates to the least sum of squares that is near, until a step gains less than the
-    /// share `settled` of it. Returns the residuals there and the number of steps; none where
-    /// there is no motion to begin with.
+    /// Iterates to the nearest minimum of the sum of squares, until a step decreases it by less
+    /// than the share `settled`. Returns the residuals there and the number of steps; `None` if
+    /// there is no motion at the start.
     pub(super) fn solve(&mut self, task: &FitTask<'_>, settled: f64) -> Option<(Residuals, usize)> {
         let residuals = self.residuals(task)?;
         let linear = self.linearise(task, &residuals)?;
@@ -247,7 +254,8 @@ impl FitStage {
         self.damping = self.damping.min(DAMPING);
         let mut before = f64::INFINITY;
         for step in 0..STEPS {
-            if best.squares <= nothing || self.damping > DAMPING_RANGE[1] {
+            let is_stuck = self.damping > DAMPING_RANGE[1];
+            if best.squares <= nothing || is_stuck || task.effort.is_over() {
                 return Some((best, step));
             }
             if step % WALK == 0 {
@@ -278,14 +286,17 @@ impl FitStage {
                 return Some((best, step + 1));
             }
             if gain > 0.0 {
-                linear = self.linearise(task, &best)?;
+                let Some(next) = self.linearise(task, &best) else {
+                    return task.effort.is_over().then_some((best, step + 1));
+                };
+                linear = next;
             }
         }
         Some((best, STEPS))
     }
 
-    /// One step, and the residuals after it. A global that lies at its bound stays there where
-    /// the step would take it beyond.
+    /// Makes one step and returns the residuals after it. A global at its bound stays there if the
+    /// step would exceed the bound.
     fn step(&self, task: &FitTask<'_>, linear: &LinearStage) -> Option<(Self, Residuals)> {
         let mut columns: Vec<usize> = (0..self.free.len()).collect();
         let mut reduced: Option<LinearStage> = None;
@@ -328,7 +339,7 @@ impl FitStage {
 }
 
 impl LinearStage {
-    /// The stage with some of the globals, all of which it has.
+    /// Returns the stage with only some of its globals fitted.
     fn only(&self, globals: &[usize]) -> Self {
         let last = self.prior.ncols() - 1;
         let columns: Vec<usize> = globals.iter().copied().chain([last]).collect();
@@ -339,7 +350,8 @@ impl LinearStage {
         }
     }
 
-    /// Damping in units of the columns' own lengths, which makes it independent of units.
+    /// Returns the damping in units of the lengths of the columns, which makes it independent of
+    /// units.
     fn damping(&self, root: f64) -> Damping {
         let columns = self.prior.ncols() - 1;
         let mut globals: Vec<f64> = (0..columns)
@@ -361,7 +373,7 @@ impl LinearStage {
     }
 }
 
-/// A column without length is damped as one of length one.
+/// Returns one damping factor; a column of length zero counts as one of length 1.
 fn rooted(root: f64, square: f64) -> f64 {
     match square > 0.0 {
         true => root * square.sqrt(),

@@ -1,12 +1,12 @@
 //! Parameters from measured motions and frequencies.
 //!
-//! Names in a description are parameters of its model; [`Identification`] finds them from
-//! angles against time of any links, from frequencies of small motions, or from both.
-//! Multiple shooting (`docs/identification.md`; H. G. Bock, *Numerical treatment of inverse
-//! problems in chemical reaction kinetics*, 1981): short segments with starts of their own first, whose
-//! sum of squares is smooth far from the truth, then twice as long ones until one motion
-//! covers the record, for only long ones show small errors of friction. Derivatives are exact
-//! ([`Dual`](branched_pendulum::scalar::Dual)), steps those of Levenberg and Marquardt.
+//! Names in a description are parameters of its model; [`Identification`] finds them from angles
+//! against time of any links, from frequencies of small motions, or from both. It uses multiple
+//! shooting (`docs/identification.md`; H. G. Bock, *Numerical treatment of inverse problems in
+//! chemical reaction kinetics*, 1981): first short segments with separate initial states, whose sum
+//! of squares is smooth far from the true values, then segments of twice the length, until one
+//! motion covers the record, because only long segments show small errors of friction. Derivatives
+//! are exact ([`Dual`](branched_pendulum::scalar::Dual)), steps those of Levenberg and Marquardt.
 //!
 //! # Example
 //!
@@ -48,10 +48,12 @@ mod alternatives;
 mod compare;
 mod convergence;
 mod covariance;
+mod effort;
 mod elimination;
 mod error;
 mod family;
 mod fit;
+mod fits;
 mod fitted;
 mod frequencies;
 mod identifiability;
@@ -66,8 +68,10 @@ mod search;
 mod sensitivity;
 mod start;
 mod task;
+mod windowed;
 
 pub use convergence::{Convergence, SearchFailure};
+pub use effort::{SearchObserver, SearchProgress};
 pub use error::IdentificationError;
 pub use family::{Family, FamilyOf, ImpossibleValue};
 pub use fit::{
@@ -80,3 +84,4 @@ pub use ratios::{DIVIDED, TIMES};
 pub use record::AngleRecord;
 pub use release::Unrest;
 pub use resolve::OFFSET_OF;
+pub use windowed::{SearchOutcome, WindowedFit, best};

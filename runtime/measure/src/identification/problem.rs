@@ -1,4 +1,4 @@
-//! Known and unknown parameters, and how the unknown ones are looked for.
+//! Known and unknown parameters, and the settings of the search for the unknown ones.
 
 use std::ops::Range;
 
@@ -8,20 +8,20 @@ use super::least_squares::{DAMPING, FitStage};
 use super::start::SmoothedRecord;
 use super::task::FitTask;
 
-/// Parameters to be found, of a family of models.
+/// Identification of the parameters of a family of models.
 #[derive(Clone, Debug)]
 pub struct Identification<F> {
     pub(super) family: F,
     pub(super) known: Vec<(String, f64)>,
     pub(super) unknown: Vec<StartValue>,
-    /// Least values of unknowns.
+    /// Lower bounds of unknown parameters, by name.
     pub(super) least: Vec<(String, f64)>,
     pub(super) offsets: bool,
     pub(super) frequencies: Vec<Frequency>,
     pub(super) shooting: Shooting,
 }
 
-/// Where an unknown starts.
+/// Value at which the search for an unknown starts.
 #[derive(Clone, Debug)]
 pub(super) struct StartValue {
     pub(super) name: String,
@@ -29,21 +29,22 @@ pub(super) struct StartValue {
     pub(super) scale: f64,
 }
 
-/// How a record is cut into segments.
+/// Division of a record into segments for multiple shooting.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Shooting {
-    /// Length of the first segments, s: a period or so.
+    /// Length of the first segments, s: about one period.
     pub first: f64,
-    /// Length that segments are not doubled beyond, s. Without a bound one motion covers the
-    /// record in the end.
+    /// Length up to which segments are doubled, s. If it is infinite, one motion finally covers the
+    /// whole record.
     pub longest: f64,
-    /// Jump of an angle from a segment to the next that is worth one deviation, in mean
-    /// deviations of the data; of velocities that of angles times the motion's own frequency.
+    /// Jump of an angle between two segments that counts as one standard deviation, relative to the
+    /// mean standard deviation of the data; jumps of velocities are divided by the frequency of the
+    /// motion first.
     pub jump: f64,
     /// Relative tolerance of the integration.
     pub tolerance: f64,
-    /// Length of the blocks by which deviations are told, s: longer than what is left over
-    /// stays alike. Without it a thirtieth of the record.
+    /// Length of the blocks of time from which standard deviations are computed, s: it must exceed
+    /// the correlation time of the residuals. `None` is a thirtieth of the record.
     pub block: Option<f64>,
 }
 
@@ -60,7 +61,7 @@ impl Default for Shooting {
 }
 
 impl<F: Family> Identification<F> {
-    /// The models of a family, of whose parameters nothing is said as yet.
+    /// Creates an identification in a family of models, with neither known nor unknown parameters.
     pub fn new(family: F) -> Self {
         Self {
             family,
@@ -73,21 +74,21 @@ impl<F: Family> Identification<F> {
         }
     }
 
-    /// Gives the value of a parameter.
+    /// Sets the value of a known parameter.
     #[must_use]
     pub fn known(mut self, name: &str, value: f64) -> Self {
         self.known.push((name.to_owned(), value));
         self
     }
 
-    /// Gives the value from which a parameter is searched for: 30 % off is near enough.
-    /// From 0 it needs a scale: [`unknown_from_zero`](Self::unknown_from_zero).
+    /// Sets the value at which the search for an unknown parameter starts; an error of 30 % is
+    /// acceptable. A search from 0 needs a scale: [`unknown_from_zero`](Self::unknown_from_zero).
     #[must_use]
     pub fn unknown(self, name: &str, value: f64) -> Self {
         self.start(name, value, value.abs())
     }
 
-    /// Searches for a parameter from 0; `scale` is the size that it may have.
+    /// Adds an unknown parameter whose search starts at 0; `scale` is its expected size.
     #[must_use]
     pub fn unknown_from_zero(self, name: &str, scale: f64) -> Self {
         self.start(name, 0.0, scale)
@@ -102,8 +103,8 @@ impl<F: Family> Identification<F> {
         self
     }
 
-    /// Searches for an unknown among values that are no less than this one: friction that does
-    /// not drive, say. Where the data would have it smaller it ends there
+    /// Restricts an unknown to values of at least `value`: friction that must not drive, for
+    /// example. If the data favour smaller values, the search ends at the bound
     /// ([`Standing::AtBound`](super::Standing::AtBound)).
     #[must_use]
     pub fn at_least(mut self, name: &str, value: f64) -> Self {
@@ -111,30 +112,30 @@ impl<F: Family> Identification<F> {
         self
     }
 
-    /// Searches for the zero of each measured link's angles, too: an angle of the record is
-    /// that of the model and its `offset of LINK`, which is half a turn at most.
+    /// Also fits an offset for each measured link: an angle of the record is the model's angle plus
+    /// `offset of LINK`, which is at most half a turn.
     #[must_use]
     pub fn with_offsets(mut self) -> Self {
         self.offsets = true;
         self
     }
 
-    /// Adds a measured frequency of a small motion about the place where the tree rests. Beside a
-    /// record it weighs by its standard error, and the angles by what is left over of them.
+    /// Adds a measured frequency of a small motion about the equilibrium. Together with a record,
+    /// the frequency is weighted by its standard error, and the angles by their residuals.
     #[must_use]
     pub fn with_frequency(mut self, frequency: Frequency) -> Self {
         self.frequencies.push(frequency);
         self
     }
 
-    /// Cuts the record in another way.
+    /// Sets the division of the record into segments.
     #[must_use]
     pub fn with_shooting(mut self, shooting: Shooting) -> Self {
         self.shooting = shooting;
         self
     }
 
-    /// Segments with these states at their starts.
+    /// Creates a stage of a search from segments with these initial states.
     pub(super) fn stage(
         &self,
         task: &FitTask<'_>,
@@ -154,8 +155,8 @@ impl<F: Family> Identification<F> {
         }
     }
 
-    /// Weights of jumps: angles by the deviation of the data, velocities by that times the
-    /// motion's own frequency.
+    /// Returns the weights of jumps between segments: for angles from the standard deviation of the
+    /// data, for velocities from that times the frequency of the motion.
     fn junction(&self, task: &FitTask<'_>, starts: &[Vec<f64>]) -> Vec<f64> {
         let links = task.dimension / 2;
         let weights: f64 = task.links.iter().map(|link| link.weight).sum();

@@ -1,27 +1,30 @@
-//! Products of powers that the data determine, of parameters that they leave open one by one.
+//! Products of powers of parameters that the data determine although they leave the parameters
+//! open.
 
 use nalgebra::{DMatrix, DVector};
 
 use super::fit::{ParameterEstimate, Standing};
 use super::task::FitTask;
 
-/// What stands between the factors in the name of a ratio.
+/// Separator between the factors in the name of a ratio.
 pub const TIMES: &str = " · ";
-/// What stands before each divisor in the name of a ratio.
+/// Separator before each divisor in the name of a ratio.
 pub const DIVIDED: &str = " / ";
-/// Relative change of a product, for one of an unknown that is held, that is none.
+/// Largest relative change of a product, for a relative change of 1 of a fixed unknown, that counts
+/// as zero.
 const UNCHANGED: f64 = 1e-4;
-/// Part of a product of powers that others before it do not have, at least.
+/// Smallest part of a product of powers that must be independent of the previous products.
 const NEW: f64 = 1e-6;
 
-/// Exponents of products of powers of the unknowns, each independent of those before.
+/// Exponents of products of powers of the unknowns; each product is independent of the previous
+/// ones.
 pub(super) struct Ratios {
     exponents: Vec<DVector<f64>>,
 }
 
 impl Ratios {
-    /// Quotients of two parameters, and of two by a third, that do not change along any of the
-    /// open directions (`changes`: a column each).
+    /// Finds the products that do not change along any open direction: quotients of two parameters,
+    /// and of two parameters and a third. `changes` has one column per direction.
     pub(super) fn new(
         task: &FitTask<'_>,
         globals: &[f64],
@@ -74,7 +77,8 @@ impl Ratios {
         found
     }
 
-    /// Relative changes of the products by changes of the free globals, in units of their scales.
+    /// Returns the derivatives of the relative changes of the products by the free globals, in
+    /// units of their scales.
     pub(super) fn combinations(
         &self,
         task: &FitTask<'_>,
@@ -90,7 +94,7 @@ impl Ratios {
         })
     }
 
-    /// The products, with their relative deviations.
+    /// Returns the estimates of the products, with their relative standard deviations.
     pub(super) fn estimates(
         self,
         task: &FitTask<'_>,

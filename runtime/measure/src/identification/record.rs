@@ -3,14 +3,14 @@
 use super::error::{IdentificationError, positive};
 use crate::smoothing::misplaced;
 
-/// Angles of some links, measured at common times. Times may be uneven, and data missing.
+/// Angles of some links, measured at common times. Times may be uneven, and data may be missing.
 #[derive(Clone, Debug, PartialEq, Default)]
 pub struct AngleRecord {
     times: Vec<f64>,
     pub(super) links: Vec<MeasuredLink>,
 }
 
-/// The angles of one link.
+/// The measured angles of one link.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct MeasuredLink {
     pub(super) name: String,
@@ -19,7 +19,7 @@ pub(super) struct MeasuredLink {
 }
 
 impl MeasuredLink {
-    /// The data that there are, each behind the index of its time.
+    /// Returns the data that are not missing, each after the index of its time.
     pub(super) fn data(&self) -> Vec<(usize, f64)> {
         let data = self.angles.iter().enumerate();
         data.filter_map(|(sample, angle)| Some((sample, (*angle)?)))
@@ -28,7 +28,7 @@ impl MeasuredLink {
 }
 
 impl AngleRecord {
-    /// A record at these times (s), without angles as yet.
+    /// Creates a record at these times (s), without angles.
     #[must_use]
     pub fn new(times: &[f64]) -> Self {
         Self {
@@ -37,9 +37,9 @@ impl AngleRecord {
         }
     }
 
-    /// Adds the absolute angles (rad, from the downward vertical, without jumps of a turn)
-    /// of the link with that name, none where they are missing. `deviation` (rad) says how
-    /// good they are beside other data; its size as such does not matter.
+    /// Adds the absolute angles (rad, from the downward vertical, without jumps of a turn) of the
+    /// link with that name; `None` for missing ones. `deviation` (rad) is their standard deviation
+    /// relative to other data; only the ratio matters.
     #[must_use]
     pub fn with_link(mut self, name: &str, angles: &[Option<f64>], deviation: f64) -> Self {
         self.links.push(MeasuredLink {
@@ -50,20 +50,20 @@ impl AngleRecord {
         self
     }
 
-    /// Times, s.
+    /// Returns the times, s.
     #[must_use]
     pub fn times(&self) -> &[f64] {
         &self.times
     }
 
-    /// Returns the angles of a link that was measured, rad.
+    /// Returns the angles of a measured link, rad; `None` for other links.
     #[must_use]
     pub fn angles(&self, link: &str) -> Option<&[Option<f64>]> {
         let own = self.links.iter().find(|own| own.name == link);
         own.map(|own| own.angles.as_slice())
     }
 
-    /// Returns the part of the record from one time on and before another.
+    /// Returns the part of the record from the time `from` (s) up to but excluding `until` (s).
     #[must_use]
     pub fn between(&self, from: f64, until: f64) -> Self {
         let first = self.times.partition_point(|&time| time < from);
@@ -78,7 +78,7 @@ impl AngleRecord {
         }
     }
 
-    /// Returns the index of each measured link among all, if the record makes sense.
+    /// Checks the record, and returns the index of each measured link among all links.
     pub(super) fn check(&self, links: &[String]) -> Result<Vec<usize>, IdentificationError> {
         if let Some((index, value)) = misplaced(&self.times) {
             return Err(IdentificationError::Time { index, value });
@@ -117,7 +117,7 @@ impl AngleRecord {
     }
 }
 
-/// Returns that no motion is near a record.
+/// Returns the error that no motion fits the record.
 pub(super) fn no_motion(record: &AngleRecord) -> IdentificationError {
     let time = record.times().first().copied().unwrap_or(0.0);
     IdentificationError::NoMotion { time }

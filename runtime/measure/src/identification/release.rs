@@ -1,13 +1,16 @@
-//! Where links rest: before they are let go, and in a stretch in which they hang still.
+//! Detection of links at rest: before they are released, and in a part of the record in which they
+//! hang still.
 
 use super::record::{AngleRecord, MeasuredLink};
 
-/// A link that does not rest in a stretch in which it should.
+/// Error: a link does not rest in a part of the record in which it should.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Unrest {
-    /// Too few angles to tell.
-    #[error("`{link}` has {found} angles there, and a place of rest needs {FEW}")]
+    /// Too few angles.
+    #[error(
+        "`{link}` has {found} angles in that time; at least {FEW} are needed to find its angle at rest"
+    )]
     TooFew {
         /// Name of the link.
         link: String,
@@ -16,35 +19,111 @@ pub enum Unrest {
     },
     /// The link moves.
     #[error(
-        "`{link}` moves there by {deviation:.1e} rad (rms), where its noise is {noise:.1e} rad"
+        "`{link}` moves by {deviation:.1e} rad (rms) in that time, but its noise is {noise:.1e} rad"
     )]
     Moves {
         /// Name of the link.
         link: String,
-        /// Deviation of its angles from their mean, rad.
+        /// Standard deviation of its angles from their mean, in rad.
         deviation: f64,
         /// Deviation of their noise, rad.
         noise: f64,
     },
 }
 
-/// Samples without which nothing is said of a beginning.
+/// Smallest number of samples from which the start of a record is judged.
 const FEW: usize = 5;
-/// Deviations from the mean of a beginning by which a link has left it, and by which it is far
-/// away; samples in a row that have to have left.
+/// Deviation from the mean of the start, in standard deviations, at which a link has left it, and
+/// at which it is far away; and the number of successive samples that must have left.
 const LEFT: f64 = 6.0;
 const FAR: f64 = 100.0;
 const ROW: usize = 3;
-/// Deviation of angles at rest, in that of their noise, at most.
+/// Largest standard deviation of angles at rest, relative to that of their noise.
 const QUIET: f64 = 3.0;
+/// Number of samples of a window in which held links are searched for; the motion of a hand that
+/// holds a link, relative to the whole motion; and the fraction of the record that must come after
+/// the window.
+const WINDOW: usize = 10;
+const TREMOR: f64 = 3e-3;
+const AFTER: f64 = 0.3;
 
 impl AngleRecord {
-    /// Returns the time from which on the links move, where they are held before.
+    /// Returns the time at which the links are released, if they are held before: the end of the
+    /// last part in which all of them are held. Before that they may have rested and been lifted.
     ///
-    /// A link that is released at rest is out of its noise soon, and three times as late a
-    /// hundred deviations away. One that rests for longer than the way takes is held.
+    /// The motion of a link that is released at rest soon exceeds its noise, and after three times
+    /// that time it exceeds a hundred standard deviations. A link that rests for longer than that
+    /// is held.
     #[must_use]
     pub fn release(&self) -> Option<f64> {
+        self.last_release().or_else(|| self.first_release())
+    }
+
+    /// Returns the end of the last part in which all links are held, if enough of the record comes
+    /// after it. Links that hang still at the end of a record and are taken away were not released
+    /// then.
+    fn last_release(&self) -> Option<f64> {
+        let times = self.times();
+        let (first, last) = (*times.first()?, *times.last()?);
+        let quiet = self.quiet_windows();
+        let mut end = times.len();
+        while let Some(last_window) = quiet.get(..end)?.iter().rposition(|quiet| *quiet) {
+            let before = quiet[..last_window].iter().rposition(|quiet| !*quiet);
+            let start = before.map_or(0, |before| before + 1);
+            let is_early = |release: &f64| last - release >= AFTER * (last - first);
+            // The end of the lift may look as quiet as the hold: later beginnings leave it out.
+            let later = std::iter::successors(Some(WINDOW), |offset| Some(2 * offset));
+            let beginnings = std::iter::once(0).chain(later).map(|offset| start + offset);
+            let mut beginnings = beginnings.take_while(|sample| *sample <= last_window);
+            let release = beginnings.find_map(|sample| {
+                let release = self.starting_at(sample).first_release();
+                release.filter(is_early)
+            });
+            if release.is_some() {
+                return release;
+            }
+            end = start;
+        }
+        None
+    }
+
+    /// Returns, for each sample, true if all links are still in the window that begins there.
+    fn quiet_windows(&self) -> Vec<bool> {
+        let count = self.times().len();
+        let mut quiet = vec![!self.links.is_empty(); count];
+        for link in &self.links {
+            let all = link.angles.iter().flatten();
+            let [least, largest] = all.fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], &x| {
+                [a.min(x), b.max(x)]
+            });
+            let tremor = TREMOR * (largest - least);
+            for (sample, quiet) in quiet.iter_mut().enumerate() {
+                let window = link.angles.get(sample..sample + WINDOW);
+                let window = window.map(|window| window.iter().flatten().copied().enumerate());
+                let window: Vec<(usize, f64)> = window.into_iter().flatten().collect();
+                *quiet &= window.len() >= FEW && {
+                    let rest = Rest::of(&window);
+                    rest.is_quiet() || rest.deviation <= tremor
+                };
+            }
+        }
+        quiet
+    }
+
+    /// Returns the part of the record from a sample on.
+    fn starting_at(&self, first: usize) -> Self {
+        let link = |link: &MeasuredLink| MeasuredLink {
+            angles: link.angles.get(first..).unwrap_or_default().to_vec(),
+            ..link.clone()
+        };
+        let mut part = Self::new(self.times().get(first..).unwrap_or_default());
+        part.links = self.links.iter().map(link).collect();
+        part
+    }
+
+    /// Returns the time at which the links begin to move, if they are held from the start of the
+    /// record.
+    fn first_release(&self) -> Option<f64> {
         let times = self.times();
         let links: Vec<Vec<(usize, f64)>> = self.links.iter().map(|link| link.data()).collect();
         let left = links.iter().filter_map(|data| departure(data)).min()?;
@@ -65,10 +144,11 @@ impl AngleRecord {
         (times[left] - times[0] > times[far] - times[left]).then_some(times[left])
     }
 
-    /// Returns the mean angle of each link (rad) over the record, in which all of them rest.
+    /// Returns the mean angle of each link (rad) over the record, after checking that all of them
+    /// rest.
     ///
     /// # Errors
-    /// [`Unrest`] for a link that moves by more than its noise.
+    /// [`Unrest`] if a link moves by more than its noise.
     pub fn means_at_rest(&self) -> Result<Vec<f64>, Unrest> {
         let mean = |link: &MeasuredLink| {
             let data = link.data();
@@ -93,7 +173,7 @@ impl AngleRecord {
     }
 }
 
-/// The sample at which a link leaves its beginning for good.
+/// Returns the sample at which a link finally leaves its initial angle.
 fn departure(data: &[(usize, f64)]) -> Option<usize> {
     let first = data.first()?.1;
     let floor = resolution(data.iter().map(|(_, angle)| *angle));
@@ -115,11 +195,11 @@ fn departure(data: &[(usize, f64)]) -> Option<usize> {
     None
 }
 
-/// Angles that may be those of a link at rest.
+/// Angles of a link that may be at rest.
 struct Rest {
     mean: f64,
     deviation: f64,
-    /// Deviation of the noise, by second differences.
+    /// Standard deviation of the noise, estimated from second differences.
     noise: f64,
     /// Deviation of the rounding.
     floor: f64,
@@ -139,15 +219,16 @@ impl Rest {
         }
     }
 
-    /// Returns true if nothing but noise moves the link.
+    /// Returns true if the angles vary by noise only.
     fn is_quiet(&self) -> bool {
         self.deviation <= QUIET * self.noise.max(self.floor)
     }
 }
 
-/// Deviation of the noise by the usual second difference: one leap does not change it.
+/// Returns the standard deviation of the noise, estimated from the typical second difference, so
+/// that a single leap does not change it.
 fn usual_noise(data: &[(usize, f64)]) -> f64 {
-    /// Part of the deviation of normal numbers below which half of them are.
+    /// Magnitude, in standard deviations, below which half of all normal random numbers are.
     const HALF: f64 = 0.674_489_75;
     let bends = data
         .windows(3)
@@ -157,8 +238,8 @@ fn usual_noise(data: &[(usize, f64)]) -> f64 {
     bends[bends.len() / 2] / (HALF * 6.0_f64.sqrt())
 }
 
-/// Sum over second differences of the variance of white noise that has such: a sixth of their
-/// squares.
+/// Returns the sum, over second differences, of the variance of white noise that would cause them:
+/// a sixth of their squares.
 pub(super) fn bends(data: &[f64]) -> f64 {
     let bends = data
         .windows(3)
@@ -166,7 +247,7 @@ pub(super) fn bends(data: &[f64]) -> f64 {
     bends.map(|bend| bend * bend / 6.0).sum()
 }
 
-/// Deviation of the rounding of data that have so many digits.
+/// Returns the standard deviation of the rounding of data with this many digits.
 pub(super) fn resolution(data: impl Iterator<Item = f64>) -> f64 {
     let mut sorted: Vec<f64> = data.collect();
     sorted.sort_by(f64::total_cmp);

@@ -1,4 +1,4 @@
-//! From the last stage to what users see of it.
+//! Construction of the result of an identification from its last stage.
 
 use super::convergence::Convergence;
 use super::covariance::{Curvature, TimeBlocks};
@@ -13,10 +13,10 @@ use super::search::{Rung, Search};
 use super::task::{FitTask, LinkData};
 use branched_pendulum::system::State;
 
-/// Number of blocks where no length is asked for.
+/// Number of blocks of time if no length is given.
 const BLOCKS: f64 = 30.0;
 
-/// Deviations of the data below which rounding is all that is left over.
+/// Standard deviation of the data below which residuals are considered rounding.
 const ROUNDING: f64 = 1e-5;
 
 impl<F: Family> Search<'_, F> {
@@ -66,7 +66,7 @@ impl<F: Family> Search<'_, F> {
                 ..convergence
             },
             blocks: fitted.blocks.as_ref().map_or(0, TimeBlocks::count),
-            identifiability: fitted.open.tell(&task.names),
+            identifiability: fitted.open.with_names(&task.names),
             frequencies: task.fitted_frequencies(globals).unwrap_or_default(),
             alternatives: Vec::new(),
             starts: starts
@@ -80,7 +80,7 @@ impl<F: Family> Search<'_, F> {
         })
     }
 
-    /// The length of the blocks of time, s.
+    /// Returns the length of the blocks of time, s.
     fn block_length(&self) -> f64 {
         let times = self.record.times();
         let ends = times.last().zip(times.first());
@@ -89,7 +89,7 @@ impl<F: Family> Search<'_, F> {
         length.max(f64::MIN_POSITIVE)
     }
 
-    /// The offsets of the measured links, with their names.
+    /// Returns the offsets of the measured links (rad), with their names.
     fn offsets(&self, globals: &[f64]) -> Vec<(String, f64)> {
         let links = self.record.links.iter().zip(&self.task.links);
         let offset = |(link, data): (&MeasuredLink, &LinkData<'_>)| {
@@ -101,7 +101,7 @@ impl<F: Family> Search<'_, F> {
 }
 
 impl FitTask<'_> {
-    /// Angles less data of a stage, rad.
+    /// Returns the angles of the model minus the data of a stage, rad.
     pub(super) fn errors(&self, stage: &FitStage, residuals: &Residuals) -> AngleErrors {
         let mut rows = Vec::new();
         for (samples, residuals) in stage.segments.iter().zip(&residuals.angles) {

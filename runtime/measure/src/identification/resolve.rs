@@ -1,16 +1,17 @@
-//! From names to indices, with all that is wrong with a request.
+//! Conversion of names to indices, with all checks of a request.
 
 use std::ops::Range;
 
+use super::effort::Effort;
 use super::error::{IdentificationError, finite, number, positive};
 use super::family::Family;
 use super::problem::{Identification, Shooting, StartValue};
 use super::record::AngleRecord;
 use super::task::{FitTask, LinkData};
 
-/// Change of an offset that matters, rad.
+/// Smallest significant change of an angle's offset, in rad.
 const OFFSET: f64 = 0.01;
-/// Beginning of the names of offsets, before that of a link.
+/// Prefix of the names of offsets, before the name of a link.
 pub const OFFSET_OF: &str = "offset of ";
 /// Offsets within a turn.
 const TURN: [f64; 2] = [-core::f64::consts::PI, core::f64::consts::PI];
@@ -38,10 +39,11 @@ impl Shooting {
 }
 
 impl<F: Family> Identification<F> {
-    /// The numerical problem, and its globals at the start.
+    /// Returns the numerical problem, and its globals at the start of the search.
     pub(super) fn task<'a>(
         &'a self,
         record: &'a AngleRecord,
+        effort: &'a Effort<'a>,
     ) -> Result<(FitTask<'a>, Vec<f64>), IdentificationError> {
         let links = self.family.links();
         let measured = record.check(&links)?;
@@ -83,12 +85,14 @@ impl<F: Family> Identification<F> {
             links: data.collect(),
             frequencies: Vec::new(),
             tolerance: self.shooting.tolerance,
+            effort,
         };
         task.frequencies = task.assigned(&self.frequencies, &globals)?;
         Ok((task, globals))
     }
 
-    /// The values of all parameters, known or at the start, and the indices of the unknown ones.
+    /// Returns the values of all parameters, known ones and start values, and the indices of the
+    /// unknown ones.
     fn values(&self) -> Result<(Vec<f64>, Vec<usize>), IdentificationError> {
         let parameters = self.family.parameters();
         let mut values = vec![None; parameters.len()];
@@ -117,7 +121,7 @@ impl<F: Family> Identification<F> {
         Ok((values.collect::<Result<_, _>>()?, unknown))
     }
 
-    /// The least and the largest value of the unknown parameters.
+    /// Returns the smallest and the largest allowed value of each unknown parameter.
     fn bounds(
         &self,
         names: &[String],
@@ -137,7 +141,7 @@ impl<F: Family> Identification<F> {
         Ok(bounds)
     }
 
-    /// Refuses more unknowns than there are data.
+    /// Checks that there are no more unknowns than data.
     pub(super) fn check_unknowns(
         &self,
         task: &FitTask<'_>,
@@ -158,7 +162,7 @@ impl<F: Family> Identification<F> {
     }
 }
 
-/// The index of a parameter among these.
+/// Returns the index of a parameter in a list of names.
 fn index_of(name: &str, parameters: &[String]) -> Result<usize, IdentificationError> {
     let index = parameters.iter().position(|parameter| parameter == name);
     index.ok_or_else(|| IdentificationError::UnknownParameter {

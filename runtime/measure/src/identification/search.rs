@@ -1,4 +1,4 @@
-//! From starts to one motion: segments that become longer, from several starts.
+//! Search from several starts: segments become longer until one motion covers the record.
 
 use super::convergence::{Convergence, SearchFailure};
 use super::error::IdentificationError;
@@ -10,26 +10,27 @@ use super::record::{AngleRecord, no_motion};
 use super::start::SmoothedRecord;
 use super::task::{FitTask, split};
 
-/// Number of starts that are tried: of a search whose residual is the noise's, of one where
-/// starts agree, and at most.
+/// Number of starts that are tried: if the residual is noise, if starts agree, and at most.
 const STARTS: [usize; 3] = [2, 3, 6];
-/// How far further starts are away from the one that was given.
+/// Relative distance of further starts from the given one.
 const OFF: f64 = 0.3;
-/// How many times as large or as small they are where frequencies alone are fitted.
+/// Factor by which further starts are larger or smaller if only frequencies are fitted.
 const FAR: f64 = 3.0;
-/// Part of the first segments that those of further starts have at first, and the samples that
-/// each has at least: the shorter, the nearer the sum of squares to a bowl.
+/// Length of the first segments of further starts, relative to that of the given start, and the
+/// smallest number of samples in each. The shorter the segments, the closer the sum of squares is
+/// to a parabola.
 const SHORT: f64 = 0.25;
 const SAMPLES: f64 = 6.0;
-/// Number of choices of unknowns that are held in the first stage, at most.
+/// Largest number of choices of fixed unknowns that are tried in the first stage.
 const CHOICES: usize = 8;
-/// By how much the tolerance of early stages is larger.
+/// Factor by which the tolerance of early stages is larger.
 const LOOSENED: f64 = 1e3;
-/// How much dearer jumps become where longer segments lose the motion, and how often.
+/// Factor by which the weight of jumps is increased if longer segments lose the motion, and how
+/// often.
 const DEARER: f64 = 10.0;
 const TRIES: usize = 1;
 
-/// A stage that is solved, and those before it.
+/// A solved stage of the search, with reports of all stages so far.
 #[derive(Clone)]
 pub(super) struct Rung {
     pub(super) stage: FitStage,
@@ -39,7 +40,7 @@ pub(super) struct Rung {
     /// Length of the segments, s.
     length: f64,
     is_last: bool,
-    /// Whether longer segments have lost the motion.
+    /// True if longer segments have lost the motion of the record.
     is_lost: bool,
 }
 
@@ -52,97 +53,8 @@ pub(super) struct Search<'a, F> {
     pub(super) smoothed: SmoothedRecord,
 }
 
-impl<F: Family> Identification<F> {
-    /// Finds the unknowns from frequencies alone, which are as many as unknowns at least. Error bars
-    /// follow from their standard errors. Of starts far from the one that is given the fit tells
-    /// those that lead to other values ([`Fit::alternatives`]).
-    ///
-    /// # Errors
-    ///
-    /// As [`fit`](Self::fit).
-    pub fn fit_to_frequencies(&self) -> Result<Fit, IdentificationError> {
-        self.fit(&AngleRecord::default())
-    }
-
-    /// Finds the unknowns from a record, and from frequencies where there are some.
-    ///
-    /// # Errors
-    ///
-    /// [`IdentificationError`]. A search that ended nowhere is
-    /// [`NotFound`](IdentificationError::NotFound), which carries the best that it found. What the
-    /// data do not determine is no error: the fit tells it ([`Fit::identifiability`]).
-    pub fn fit(&self, record: &AngleRecord) -> Result<Fit, IdentificationError> {
-        let (search, globals) = self.search(record, self.shooting)?;
-        search.try_starts(globals)
-    }
-
-    /// Finds the unknowns as [`fit`](Self::fit) does, in the longest segments that keep the
-    /// motion of the record: one motion where none is lost.
-    ///
-    /// # Errors
-    ///
-    /// As [`fit`](Self::fit), but for motions that are lost.
-    pub fn fit_in_segments(&self, record: &AngleRecord) -> Result<Fit, IdentificationError> {
-        let mut shooting = self.shooting;
-        loop {
-            let (search, globals) = self.search(record, shooting)?;
-            match search.try_starts(globals) {
-                Err(IdentificationError::NotFound(unfound)) => match unfound.failure {
-                    SearchFailure::Lost { followed } if followed < shooting.longest => {
-                        shooting.longest = followed;
-                        shooting.first = shooting.first.min(followed);
-                    }
-                    _ => return Err(IdentificationError::NotFound(unfound)),
-                },
-                result => return result,
-            }
-        }
-    }
-
-    fn search<'a>(
-        &'a self,
-        record: &'a AngleRecord,
-        shooting: Shooting,
-    ) -> Result<(Search<'a, F>, Vec<f64>), IdentificationError> {
-        let (task, globals) = self.task(record)?;
-        let search = Search {
-            identification: self,
-            shooting,
-            task,
-            record,
-            smoothed: SmoothedRecord::new(record)?,
-        };
-        Ok((search, globals))
-    }
-
-    /// Finds the unknowns from a record, beginning where another fit has ended: with its values
-    /// of the unknowns that both have and, if it is one to the same times, with its segments
-    /// and their motions. Short segments lead on to one motion so, a law of friction to one
-    /// with more terms.
-    ///
-    /// # Errors
-    ///
-    /// As [`fit`](Self::fit).
-    pub fn fit_from(&self, fit: &Fit, record: &AngleRecord) -> Result<Fit, IdentificationError> {
-        let (search, mut globals) = self.search(record, self.shooting)?;
-        let task = &search.task;
-        for (index, (global, name)) in globals.iter_mut().zip(&task.names).enumerate() {
-            *global = task.within(index, fit.value(name).unwrap_or(*global));
-        }
-        match (task.segments_of(fit), fit.stages.last()) {
-            (Some(segments), Some(last)) => {
-                self.check_unknowns(task, &segments)?;
-                let smoothed = &search.smoothed;
-                let stage = self.stage(task, smoothed, segments, fit.start_states(), globals);
-                search.continue_from(stage, last.length, &fit.convergence)
-            }
-            _ => search.try_starts(globals),
-        }
-    }
-}
-
 impl<F: Family> Search<'_, F> {
-    /// Tries starts, and makes the segments of the best longer.
+    /// Tries several starts, and lengthens the segments of the best one.
     pub(super) fn try_starts(mut self, globals: Vec<f64>) -> Result<Fit, IdentificationError> {
         if self.record.links.is_empty() {
             return self.try_starts_at_rest(&globals);
@@ -152,6 +64,9 @@ impl<F: Family> Search<'_, F> {
         self.identification.check_unknowns(&self.task, &segments)?;
         let mut rungs: Vec<Rung> = Vec::new();
         for number in 0..STARTS[2] {
+            if self.task.effort.is_over() {
+                break;
+            }
             rungs.extend(self.scout(number, &globals));
             let Some(best) = best(&rungs) else {
                 continue;
@@ -166,13 +81,13 @@ impl<F: Family> Search<'_, F> {
                 break;
             }
         }
-        let best = best(&rungs).ok_or_else(|| no_motion(self.record))?;
+        let best = best(&rungs).ok_or_else(|| self.nothing())?;
         let mut rung = best.clone();
         rung.convergence = with_starts(best, &rungs, rungs.len());
         self.finish(rung)
     }
 
-    /// Goes on from a stage that another search has solved.
+    /// Continues from a stage that another search has solved.
     pub(super) fn continue_from(
         mut self,
         stage: FitStage,
@@ -180,12 +95,20 @@ impl<F: Family> Search<'_, F> {
         before: &Convergence,
     ) -> Result<Fit, IdentificationError> {
         let rung = self.solve(stage, length, Vec::new(), before);
-        let rung = rung.ok_or_else(|| no_motion(self.record))?;
+        let rung = rung.ok_or_else(|| self.nothing())?;
         self.finish(rung)
     }
 
-    /// Solves the first segments from a start: the one that was given, in segments of the first
-    /// length and in shorter ones, and others around it.
+    /// Returns the error of a search that has found no motion.
+    fn nothing(&self) -> IdentificationError {
+        match self.task.effort.end() == Some(SearchFailure::Interrupted) {
+            true => IdentificationError::Ended,
+            false => no_motion(self.record),
+        }
+    }
+
+    /// Solves the first segments from start number `number`: the given start, in segments of the
+    /// first length and in shorter ones, or another start around it.
     pub(super) fn scout(&mut self, number: usize, globals: &[f64]) -> Option<Rung> {
         let shooting = self.shooting;
         let mut globals = globals.to_vec();
@@ -237,7 +160,7 @@ impl<F: Family> Search<'_, F> {
         Some(kept.unwrap_or(rung))
     }
 
-    /// Solves a stage of segments of this length, s.
+    /// Solves a stage with segments of this length (s).
     fn solve(
         &mut self,
         mut stage: FitStage,
@@ -256,6 +179,7 @@ impl<F: Family> Search<'_, F> {
         let solved = stage.solve_weighed(&self.task, settled, choices)?;
         let errors = self.task.errors(&stage, &solved.residuals);
         let rms = errors.rms();
+        self.task.effort.show(length, rms);
         reports.push(StageReport {
             segments: stage.segments.len(),
             length,
@@ -273,7 +197,7 @@ impl<F: Family> Search<'_, F> {
         })
     }
 
-    /// Makes one of every two segments, until they have this length (s) or lose the motion.
+    /// Joins every two segments into one, until they have this length (s) or lose the motion.
     fn lengthen(&mut self, mut rung: Rung, until: f64) -> Rung {
         let mut tries = 0;
         while !rung.is_last && !rung.is_lost && rung.length < until * (1.0 - 1e-9) {
@@ -281,6 +205,9 @@ impl<F: Family> Search<'_, F> {
             stage.merge();
             let before = rung.convergence;
             let longer = self.solve(stage, 2.0 * rung.length, rung.reports.clone(), &before);
+            if self.task.effort.is_over() {
+                break;
+            }
             match longer.filter(|longer| before.is_kept(&longer.convergence)) {
                 Some(longer) => rung = longer,
                 None if tries < TRIES => {
@@ -303,16 +230,21 @@ impl<F: Family> Search<'_, F> {
         rung
     }
 
-    /// Makes segments as long as they may be, and judges what is found.
+    /// Lengthens the segments as far as allowed, and judges the result.
     pub(super) fn finish(mut self, rung: Rung) -> Result<Fit, IdentificationError> {
         let rung = match rung.convergence.is_followed() {
             true => self.lengthen(rung, f64::INFINITY),
             false => rung,
         };
         let (is_lost, length, stages) = (rung.is_lost, rung.length, rung.reports.len());
-        let fit = self.report(rung)?;
+        let (is_last, end) = (rung.is_last, self.task.effort.end());
+        let effort = self.task.effort;
+        let fit = effort.unlimited(|| self.report(rung))?;
         let failure = match fit.convergence.failure() {
             _ if is_lost => Some(SearchFailure::Lost { followed: length }),
+            // More work might have led to longer segments, or to an end.
+            Some(_) if end.is_some() => end,
+            None if end.is_some() && !is_last => end,
             // Chaos makes the sum of squares so rough that a search does not come to its end.
             Some(SearchFailure::Unsettled) if stages > 1 => Some(SearchFailure::Lost {
                 followed: 0.5 * length,
@@ -334,7 +266,8 @@ impl<F: Family> Search<'_, F> {
     }
 }
 
-/// The best of several starts: one whose segments follow the motion for the longest.
+/// Returns the best of several starts, which is the one whose segments fit the motion for the
+/// longest time.
 fn best(rungs: &[Rung]) -> Option<&Rung> {
     let key = |rung: &Rung| {
         let followed = rung.convergence.is_followed();
@@ -352,10 +285,11 @@ fn best(rungs: &[Rung]) -> Option<&Rung> {
     })
 }
 
-/// The convergence of the best start, with the number of those that ended alike.
+/// Returns the convergence of the best start, with the number of starts that ended in the same
+/// minimum.
 fn with_starts(best: &Rung, rungs: &[Rung], starts: usize) -> Convergence {
     let alike = rungs.iter().filter(|rung| {
-        rung.length >= best.length && best.convergence.is_alike(rung.convergence.rms)
+        rung.length >= best.length && best.convergence.is_same_minimum(rung.convergence.rms)
     });
     Convergence {
         starts,
@@ -364,7 +298,7 @@ fn with_starts(best: &Rung, rungs: &[Rung], starts: usize) -> Convergence {
     }
 }
 
-/// Numbers between −1 and 1, spread evenly over starts and unknowns.
+/// Returns a number between −1 and 1; the numbers are spread evenly over starts and unknowns.
 fn spread(start: usize, unknown: usize) -> f64 {
     // Multiples of the golden ratio stay apart from each other.
     let golden = 0.5 * (5.0_f64.sqrt() - 1.0);

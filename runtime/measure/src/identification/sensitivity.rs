@@ -1,4 +1,4 @@
-//! A motion and its derivatives with respect to its start and to parameters.
+//! A motion and its derivatives by its initial state and by parameters.
 
 use std::cell::RefCell;
 
@@ -6,21 +6,22 @@ use super::family::{AnyFamily, WIDTH, Wide};
 use branched_pendulum::scalar::Dual;
 use branched_pendulum::system::{Ode, Workspace};
 
-/// A motion y and its derivatives: a column ∂y/∂x for each component x of its start, then one
-/// for each free parameter, in units of its scale.
+/// The system of a motion y and its derivatives: one column ∂y/∂x for each component x of its
+/// start, then one for each free parameter, in units of its scale.
 ///
-/// With y' = f(y, p), a column v obeys v' = ∂f/∂y v + ∂f/∂p: what a number with the
-/// derivatives v and ∂p has for a derivative of its rate. [`WIDTH`] columns are taken at a time:
-/// the state is y, followed by groups of so many, in which those of a component are neighbours,
-/// as they are in the number. What is left over of the last group is zero.
+/// With y' = f(y, p), a column v obeys v' = ∂f/∂y v + ∂f/∂p, which is the derivative of the rate in
+/// numbers with the derivatives v and ∂p. [`WIDTH`] columns are computed at a time: the state is y,
+/// followed by groups of that number of columns, in which those of one component are neighbours, as
+/// in the number. Unused columns of the last group are zero.
 pub(super) struct Sensitivities<'a> {
     dimension: usize,
-    /// The equations, whose parameters carry the derivatives of their group of columns.
+    /// The equations for each group of columns; their parameters carry the derivatives of that
+    /// group.
     groups: Vec<Box<dyn Ode<Wide> + 'a>>,
     memory: RefCell<Memory>,
 }
 
-/// Memory for one evaluation in numbers that carry derivatives.
+/// Buffers for one evaluation in numbers with derivatives.
 struct Memory {
     state: Vec<Wide>,
     rates: Vec<Wide>,
@@ -28,8 +29,8 @@ struct Memory {
 }
 
 impl<'a> Sensitivities<'a> {
-    /// Derivatives with respect to the start, of `dimension` numbers, and to the
-    /// parameters with these indices and scales.
+    /// Creates the system of derivatives by the initial state, which has `dimension` components,
+    /// and by the parameters with these indices and scales.
     pub(super) fn new(
         family: &'a dyn AnyFamily,
         dimension: usize,
@@ -61,18 +62,18 @@ impl<'a> Sensitivities<'a> {
         }
     }
 
-    /// The start of motion and columns.
+    /// Returns the initial state of the motion followed by all columns.
     pub(super) fn start(&self, state: &[f64]) -> Vec<f64> {
         let mut start = vec![0.0; self.dimension()];
         start[..self.dimension].copy_from_slice(state);
         for component in 0..self.dimension {
-            start[self.place(component, component)] = 1.0;
+            start[self.state_index(component, component)] = 1.0;
         }
         start
     }
 
-    /// The place of a component of a column in the state.
-    pub(super) fn place(&self, column: usize, component: usize) -> usize {
+    /// Returns the index, within the state of this system, of one component of a column.
+    pub(super) fn state_index(&self, column: usize, component: usize) -> usize {
         let group = self.dimension * (1 + column / WIDTH * WIDTH);
         group + component * WIDTH + column % WIDTH
     }

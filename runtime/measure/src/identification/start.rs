@@ -1,4 +1,4 @@
-//! States to begin with: angles and velocities as the data show them.
+//! Initial states: angles and velocities estimated from the data.
 
 use std::ops::Range;
 
@@ -11,12 +11,12 @@ use super::task::FitTask;
 use crate::KinematicSmoother;
 use crate::smoothing::SmoothedMotion;
 
-/// What the data show by the smoothness of their motion alone.
+/// Estimates from the data that assume only that the motion is smooth.
 pub(super) struct SmoothedRecord {
     links: Vec<SmoothedMotion>,
     /// Root mean square of the data's errors, rad.
     pub(super) noise: f64,
-    /// Root mean square of the motion about its mean, rad, 1 at most.
+    /// Root mean square of the motion about its mean, rad, at most 1.
     pub(super) swing: f64,
 }
 
@@ -51,7 +51,7 @@ impl SmoothedRecord {
 }
 
 impl SmoothedRecord {
-    /// The convergence of a search by what is left over.
+    /// Computes from the residuals `errors` whether and how well a search has converged.
     pub(super) fn compare(&self, before: &Convergence, errors: &AngleErrors) -> Convergence {
         let mut squares = 0.0;
         let mut count = 0;
@@ -70,8 +70,8 @@ impl SmoothedRecord {
 }
 
 impl FitTask<'_> {
-    /// Errors of the angles in the deviations that were given, as far as smoothness shows them; 1
-    /// without angles.
+    /// Returns the errors of the angles, estimated from smoothness, in units of the given standard
+    /// deviations; 1 if there are no angles.
     pub(super) fn spread(&self, smoothed: &SmoothedRecord) -> f64 {
         if self.links.is_empty() {
             return 1.0;
@@ -81,21 +81,21 @@ impl FitTask<'_> {
         noise * weights / self.links.len() as f64
     }
 
-    /// The segments of a fit; none where it is one of other times or of another tree.
+    /// Returns the segments of an earlier fit; `None` if it has other times or another tree.
     pub(super) fn segments_of(&self, fit: &Fit) -> Option<Vec<Range<usize>>> {
         let sample = |time: f64| self.times.iter().position(|own| *own == time);
         let firsts = fit.starts.iter().map(|start| sample(start.time));
         let firsts: Vec<usize> = firsts.collect::<Option<_>>()?;
         let is_whole = fit.until == self.times.last().copied() && firsts.first() == Some(&0);
         let mut starts = fit.starts.iter();
-        let is_alike = starts.all(|start| start.values.len() == self.dimension);
+        let is_same_minimum = starts.all(|start| start.values.len() == self.dimension);
         let ends = firsts.iter().copied().skip(1).chain([self.times.len()]);
         let segments = firsts.iter().zip(ends).map(|(&first, end)| first..end);
-        (is_whole && is_alike).then(|| segments.collect())
+        (is_whole && is_same_minimum).then(|| segments.collect())
     }
 
-    /// A state for the start of each segment: of measured links by smoothness, of others as
-    /// the motion of the segment before leaves them, and at rest in the beginning.
+    /// Returns an initial state for each segment: for measured links from smoothing, for other
+    /// links from the motion of the previous segment; in the first segment these are at rest.
     pub(super) fn first_states(
         &self,
         smoothed: &SmoothedRecord,

@@ -1,42 +1,46 @@
-//! A fit as the numerics see it: names resolved to indices, checked.
+//! A fit in the form that the numerical code uses: with checked indices instead of names.
 
 use std::ops::Range;
 
 use nalgebra::DMatrix;
 
-use super::family::AnyFamily;
+use super::effort::{Counted, Effort};
+use super::family::{AnyFamily, WIDTH};
 use super::sensitivity::Sensitivities;
 use branched_pendulum::integrate::{Dop853, Integrator, Options, Tolerance};
 use branched_pendulum::system::{Ode, State};
 
-/// Relative tolerance of the derivatives and of the motion that they are derivatives of: they
-/// give directions and bars. How good a motion is, is told by one without derivatives.
+/// Relative tolerance for derivatives and for the motion integrated with them, which give
+/// directions of steps and error bars. The sum of squares itself comes from a motion without
+/// derivatives.
 const TOLERANCE_OF_COLUMNS: f64 = 1e-7;
 
-/// Models, data and what is unknown. Unknown are *globals*, parameters and then offsets of
-/// angles, and the states at the starts of segments.
+/// Models, data and unknowns. The unknowns are the *globals* (parameters, then offsets of angles)
+/// and the initial states of the segments.
 pub(super) struct FitTask<'a> {
     pub(super) family: &'a dyn AnyFamily,
     /// Numbers of a state.
     pub(super) dimension: usize,
-    /// Values of all parameters; those of unknown ones are starts.
+    /// Values of all parameters; for unknown ones the start values.
     pub(super) values: Vec<f64>,
     /// Indices of unknown parameters.
     pub(super) unknown: Vec<usize>,
-    /// Names of the globals: parameters first.
+    /// Names of the globals, parameters first.
     pub(super) names: Vec<String>,
-    /// Sizes of changes of globals that matter.
+    /// Changes of the globals that are significant, used as their units.
     pub(super) scales: Vec<f64>,
-    /// The least and the largest value of each.
+    /// The smallest and the largest allowed value of each global.
     pub(super) bounds: Vec<[f64; 2]>,
     pub(super) times: &'a [f64],
     pub(super) links: Vec<LinkData<'a>>,
     pub(super) frequencies: Vec<FrequencyDatum>,
     /// Relative tolerance of the motion.
     pub(super) tolerance: f64,
+    /// Work count of the search to which the task belongs.
+    pub(super) effort: &'a Effort<'a>,
 }
 
-/// A frequency with the place of its mode among those that oscillate.
+/// A frequency, with the index of its mode among those that oscillate.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct FrequencyDatum {
     pub(super) place: usize,
@@ -46,26 +50,26 @@ pub(super) struct FrequencyDatum {
 
 /// Measured angles of one link.
 pub(super) struct LinkData<'a> {
-    /// Index of its angle in the state.
+    /// Index of the link's angle in the state.
     pub(super) component: usize,
     pub(super) angles: &'a [Option<f64>],
     /// One over the deviation.
     pub(super) weight: f64,
-    /// The global that is added to the angle.
+    /// Index of the global that is the offset of the angle.
     pub(super) offset: Option<usize>,
 }
 
-/// Rows of the linear problem that belong to one segment, on columns of its start, of the
-/// globals (in units of their scales), and of what they have to make up for.
+/// Rows of the linear problem that belong to one segment. Their columns are its initial state, the
+/// globals (in units of their scales) and the right-hand side.
 pub(super) struct LinearSegment {
     /// One row a datum.
     pub(super) data: DMatrix<f64>,
-    /// One row a component of the state at the end; the last column is that component.
+    /// One row for each component of the state at the end; the last column is that component.
     pub(super) end: DMatrix<f64>,
 }
 
 impl LinearSegment {
-    /// The rows on columns of the start and of some of the globals.
+    /// Returns the rows with the columns of the initial state and of some of the globals.
     pub(super) fn only(&self, globals: &[usize]) -> Self {
         let n = self.end.nrows();
         let last = self.end.ncols() - 1;
@@ -79,7 +83,7 @@ impl LinearSegment {
 }
 
 impl FitTask<'_> {
-    /// Values of all parameters, for these globals.
+    /// Returns the values of all parameters for given globals.
     pub(super) fn parameters(&self, globals: &[f64]) -> Vec<f64> {
         let mut values = self.values.clone();
         for (&parameter, &global) in self.unknown.iter().zip(globals) {
@@ -88,31 +92,31 @@ impl FitTask<'_> {
         values
     }
 
-    /// The value from which a global is searched: offsets from 0.
+    /// Returns the start value of a global; 0 for offsets.
     pub(super) fn start(&self, global: usize) -> f64 {
         let parameter = self.unknown.get(global);
         parameter.map_or(0.0, |&parameter| self.values[parameter])
     }
 
-    /// Whether a global with this value lies at its bound.
+    /// Returns true if a global with this value is at its bound.
     pub(super) fn is_at_bound(&self, global: usize, value: f64) -> bool {
         self.bounds[global].contains(&value)
     }
 
-    /// The value within the bounds of a global that is nearest to this one.
+    /// Returns the value within the bounds of a global that is nearest to the given one.
     pub(super) fn within(&self, global: usize, value: f64) -> f64 {
         let [least, largest] = self.bounds[global];
         value.max(least).min(largest)
     }
 
-    /// Number of data from a sample on and before another.
+    /// Returns the number of data in a range of samples.
     pub(super) fn count(&self, samples: &Range<usize>) -> usize {
         let angles = self.links.iter().map(|link| &link.angles[samples.clone()]);
         angles.map(|angles| angles.iter().flatten().count()).sum()
     }
 
-    /// Angles less data, in deviations, over a segment from this state on, and the state at
-    /// its end. None where the motion ends before.
+    /// Integrates a segment from an initial state. Returns the residuals (angles minus data, in
+    /// standard deviations) and the state at the end; `None` if the integration fails.
     pub(super) fn shoot(
         &self,
         globals: &[f64],
@@ -126,7 +130,7 @@ impl FitTask<'_> {
             ..Options::with_tolerance(self.tolerance)
         };
         let end = self.follow(
-            &*motion,
+            (&*motion, 1),
             options,
             state.to_vec(),
             samples,
@@ -141,8 +145,8 @@ impl FitTask<'_> {
         Some((residuals, end))
     }
 
-    /// Linearises a segment with respect to the state at its start and to these globals.
-    /// `residuals` and `reached` are what [`shoot`](Self::shoot) tells of it.
+    /// Linearises a segment about its initial state and the given globals. `residuals` and
+    /// `reached` are the results of [`shoot`](Self::shoot).
     pub(super) fn linearise(
         &self,
         globals: &[f64],
@@ -165,27 +169,34 @@ impl FitTask<'_> {
         let mut data = DMatrix::zeros(residuals.len(), last + 1);
         let mut rows = residuals.iter().enumerate();
         let start = system.start(state);
-        let end = self.follow(&system, options, start, samples, |sample, state| {
-            for link in &self.links {
-                if link.angles[sample].is_none() {
-                    continue;
+        let weight = width.div_ceil(WIDTH) * (1 + WIDTH);
+        let end = self.follow(
+            (&system, weight),
+            options,
+            start,
+            samples,
+            |sample, state| {
+                for link in &self.links {
+                    if link.angles[sample].is_none() {
+                        continue;
+                    }
+                    let Some((row, residual)) = rows.next() else {
+                        continue;
+                    };
+                    for column in 0..width {
+                        let slope = state[system.state_index(column, link.component)];
+                        data[(row, column)] = link.weight * slope;
+                    }
+                    let offset = free.iter().position(|&global| Some(global) == link.offset);
+                    if let Some((column, offset)) = offset.zip(link.offset) {
+                        data[(row, n + column)] = link.weight * self.scales[offset];
+                    }
+                    data[(row, last)] = -residual;
                 }
-                let Some((row, residual)) = rows.next() else {
-                    continue;
-                };
-                for column in 0..width {
-                    let slope = state[system.place(column, link.component)];
-                    data[(row, column)] = link.weight * slope;
-                }
-                let offset = free.iter().position(|&global| Some(global) == link.offset);
-                if let Some((column, offset)) = offset.zip(link.offset) {
-                    data[(row, n + column)] = link.weight * self.scales[offset];
-                }
-                data[(row, last)] = -residual;
-            }
-        })?;
+            },
+        )?;
         let end = DMatrix::from_fn(n, last + 1, |component, column| match column {
-            column if column < width => end[system.place(column, component)],
+            column if column < width => end[system.state_index(column, component)],
             column if column < last => 0.0,
             _ => reached[component],
         });
@@ -193,10 +204,11 @@ impl FitTask<'_> {
         is_finite.then_some(LinearSegment { data, end })
     }
 
-    /// Integrates over a segment, up to the start of the next one where there is one.
+    /// Integrates over a segment, up to the start of the next one if there is one. An evaluation of
+    /// the system counts as `weight` evaluations of the model's equations.
     fn follow(
         &self,
-        system: &dyn Ode<f64>,
+        (system, weight): (&dyn Ode<f64>, usize),
         options: Options<f64>,
         start: Vec<f64>,
         samples: &Range<usize>,
@@ -206,6 +218,11 @@ impl FitTask<'_> {
         let start = State::new(*times.first()?, start);
         let mut sample = samples.start;
         let mut end = Vec::new();
+        if !self.effort.may_continue() {
+            return None;
+        }
+        let weight = (weight * self.dimension / 2) as u64;
+        let system = Counted::new(system, self.effort, weight, samples.len());
         let run = Dop853::new(options).sample(&system, &start, times, |_, state| {
             if sample < samples.end {
                 visit(sample, state);
@@ -227,8 +244,8 @@ impl LinkData<'_> {
     }
 }
 
-/// Segments of this length (s) or a little more, as ranges of two samples or more. A rest of
-/// less than half of it belongs to the last.
+/// Divides the times into segments of this length (s) or slightly more, as ranges of at least two
+/// samples. A remainder of less than half of the length is added to the last segment.
 pub(super) fn split(times: &[f64], length: f64) -> Vec<Range<usize>> {
     let Some(&last) = times.last().filter(|_| times.len() > 1) else {
         return Vec::new();

@@ -1,20 +1,22 @@
-//! Quantities of an estimated motion, with their errors.
+//! Quantities computed from an estimated motion, with their standard deviations.
 
-/// Means and standard deviations of a row of quantities at every time: an array, or a vector.
+/// Means and standard deviations of several quantities at each time. A row of quantities is an
+/// array or a vector.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Bands<R> {
-    /// Means.
+    /// Means of the quantities, one row per time.
     pub means: Vec<R>,
-    /// Standard deviations.
+    /// Standard deviations of the quantities, one row per time.
     pub deviations: Vec<R>,
 }
 
-/// Returns means and deviations over `draws` draws of a motion, each made by `draw` as one
-/// row of quantities a time: of a [`SmoothedMotion`](super::SmoothedMotion), or of several,
-/// the energies that follow from them, their transfers, integrals over time.
+/// Returns means and standard deviations over `draws` random motions, and the number of motions
+/// that counted. `draw` returns the quantities of one motion, a row for each time: the motion of
+/// one or several [`SmoothedMotion`](super::SmoothedMotion)s, or energies, transfers and integrals
+/// over time that are computed from it.
 ///
-/// Draws whose rows are not as many and as long as those of the first are left out, and so is one
-/// with a number that is not finite: the number of those that count stands beside the bands.
+/// Motions are left out if the number or the length of their rows differs from those of the first,
+/// or if a number is not finite.
 ///
 /// # Examples
 ///
@@ -65,7 +67,7 @@ pub fn bands<R: AsRef<[f64]> + AsMut<[f64]> + Clone>(
             continue;
         }
         count += 1;
-        // Welford's update.
+        // Welford's update of the mean and the sum of squares.
         let weight = 1.0 / f64::from(count);
         for ((mean, square), row) in means.iter_mut().zip(&mut squares).zip(&rows) {
             let both = mean.as_mut().iter_mut().zip(square.as_mut());

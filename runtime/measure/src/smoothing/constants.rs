@@ -1,36 +1,38 @@
-//! Constants that act on a motion, found beside a filter that runs without them.
+//! Constants that act on a motion, estimated from a filter that runs without them.
 //!
-//! Constants move the expected data linearly, so that the filter runs once, without any, and
-//! takes along what each would do: a regression of the innovations finds them (B. Friedland,
-//! *Treatment of bias in recursive filtering*, IEEE Transactions on Automatic Control 14 (1969)).
+//! The expected data depend linearly on the constants. Therefore the filter runs once, with all
+//! constants zero, and computes their effects too: a regression of the innovations estimates them
+//! (B. Friedland, *Treatment of bias in recursive filtering*, IEEE Transactions on Automatic
+//! Control 14 (1969)).
 
 use nalgebra::{DMatrix, DVector, Dyn};
 
 use super::gaussian::{Innovations, Step};
 
-/// Changes of the state at one time by constants of one, a column each: before and after the data
-/// of the time.
+/// Changes of the state at one time caused by constants with the value 1, one column per constant:
+/// before and after the data of that time are used.
 #[derive(Clone, Debug)]
 pub(super) struct StepEffects {
     pub(super) predicted: DMatrix<f64>,
     pub(super) updated: DMatrix<f64>,
 }
 
-/// Constants that were fitted.
+/// Constants that have been fitted.
 #[derive(Clone, Debug)]
 pub(super) struct FittedConstants {
-    /// Zero for those that the data do not ask for.
+    /// Values of the constants; zero for those that do not improve the likelihood enough.
     pub(super) values: DVector<f64>,
-    /// A root of their variance, for data of a standard deviation of 1.
+    /// Square root of their covariance, for data with a standard deviation of 1.
     root: DMatrix<f64>,
 }
 
 impl FittedConstants {
-    /// Fits constants to innovations, of which each moves by its row times them, in its
-    /// deviations; takes what they explain out of the innovations. One after the other is
-    /// taken, the one that gains most first, until none is worth its number.
+    /// Fits constants to innovations: each innovation changes by its row times the constants, in
+    /// units of its standard deviation. Subtracts the fitted effects from the innovations.
+    /// Constants are included one after the other, the one with the largest gain first, until no
+    /// gain outweighs the additional number.
     ///
-    /// `noise` is the standard deviation of the data, where it is known.
+    /// `noise` is the standard deviation of the data, if it is known.
     pub(super) fn fit(
         innovations: &mut Innovations,
         rows: &[DVector<f64>],
@@ -76,7 +78,8 @@ impl FittedConstants {
         }
     }
 
-    /// Least squares with those constants that are taken; none where they cannot be told apart.
+    /// Solves the least-squares problem for the constants marked in `taken`; `None` if they cannot
+    /// be separated.
     fn solve(information: &DMatrix<f64>, pull: &DVector<f64>, taken: &[bool]) -> Option<Self> {
         let count = taken.len();
         let own = DMatrix::from_fn(count, count, |i, j| match taken[i] && taken[j] {
@@ -95,7 +98,7 @@ impl FittedConstants {
         })
     }
 
-    /// Moves the states of a filter to where the constants take them.
+    /// Adds the effects of the constants to the states of a filter.
     pub(super) fn move_steps(&self, steps: &mut [Step<Dyn>], effects: &[StepEffects]) {
         for (step, effects) in steps.iter_mut().zip(effects) {
             step.predicted.mean += &effects.predicted * &self.values;
@@ -103,8 +106,8 @@ impl FittedConstants {
         }
     }
 
-    /// Returns the changes of the smoothed states by independent errors of one deviation of the
-    /// constants: a series each.
+    /// Returns the changes of the smoothed states by independent errors of the constants, each of
+    /// one standard deviation: one series for each error.
     pub(super) fn errors(
         &self,
         gains: &[DMatrix<f64>],
@@ -125,13 +128,14 @@ impl FittedConstants {
         self.known().map(of).collect()
     }
 
-    /// Columns of the root that are not zero.
+    /// Returns the indices of the columns of the root that are not zero.
     fn known(&self) -> impl Iterator<Item = usize> {
         let is_known = |one: &usize| self.root.column(*one).iter().any(|&part| part != 0.0);
         (0..self.values.len()).filter(is_known)
     }
 
-    /// Returns unit vectors of what the constants explain of the innovations they were fitted to.
+    /// Returns orthonormal vectors that span the effects of the fitted constants on the
+    /// innovations.
     pub(super) fn explained(&self, rows: &[DVector<f64>]) -> Vec<Vec<f64>> {
         let of = |one: usize| {
             rows.iter()

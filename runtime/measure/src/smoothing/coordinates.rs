@@ -1,9 +1,9 @@
-//! Several coordinates of one motion, each smoothed by itself.
+//! Several coordinates of one motion, each smoothed separately.
 
 use super::error::SmoothingError;
 use super::series::SmoothedMotion;
 
-/// A motion of several coordinates that were measured together, each smoothed by itself. A
+/// A motion of several coordinates that were measured together, each of them smoothed separately. A
 /// state is the coordinates followed by their rates.
 ///
 /// # Examples
@@ -35,7 +35,7 @@ pub struct SmoothedCoordinates {
 }
 
 impl SmoothedCoordinates {
-    /// Smooths the data of each coordinate, none where they are missing.
+    /// Smooths the data of each coordinate with `smooth`; `None` for missing data.
     ///
     /// # Errors
     ///
@@ -50,24 +50,24 @@ impl SmoothedCoordinates {
         })
     }
 
-    /// Each coordinate with its first and second derivative.
+    /// Returns the coordinates, each with its first and second derivative.
     pub fn coordinates(&self) -> &[SmoothedMotion] {
         &self.coordinates
     }
 
-    /// Returns the state at a time, NaN beyond the last.
+    /// Returns the mean state at the time with this index; NaN beyond the last.
     pub fn mean(&self, index: usize) -> Vec<f64> {
         state(self.coordinates.iter().map(|own| own.mean(index)))
     }
 
-    /// Returns the largest [`whiteness`](SmoothedMotion::whiteness) of a coordinate.
+    /// Returns the largest [`whiteness`](SmoothedMotion::whiteness) of any coordinate.
     pub fn whiteness(&self) -> f64 {
         let all = self.coordinates.iter().map(SmoothedMotion::whiteness);
         let larger = |a: f64, b: f64| if a.abs() > b.abs() { a } else { b };
         all.reduce(larger).unwrap_or(f64::NAN)
     }
 
-    /// Draws a motion, as [`SmoothedMotion::draw`] does: the state at every time.
+    /// Draws a random motion like [`SmoothedMotion::draw`]: returns the state at each time.
     pub fn draw(&self, mut normal: impl FnMut() -> f64) -> Vec<Vec<f64>> {
         let drawn = self.coordinates.iter().map(|own| own.draw(&mut normal));
         let drawn: Vec<Vec<[f64; 3]>> = drawn.collect();
@@ -77,7 +77,7 @@ impl SmoothedCoordinates {
     }
 }
 
-/// Coordinates, then their rates.
+/// Returns the coordinates followed by their rates.
 fn state(coordinates: impl Iterator<Item = [f64; 3]> + Clone) -> Vec<f64> {
     let rates = coordinates.clone().map(|[_, rate, _]| rate);
     coordinates.map(|[own, ..]| own).chain(rates).collect()

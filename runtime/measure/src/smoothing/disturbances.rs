@@ -1,4 +1,4 @@
-//! What disturbs a motion from time to time, as a smoother estimates it.
+//! Disturbances that act on a motion in each step, estimated by a smoother.
 //!
 //! S. J. Koopman, *Disturbance smoother for state space models*, Biometrika 80 (1993).
 
@@ -6,27 +6,28 @@ use nalgebra::{DMatrix, DVector, Dyn};
 
 use super::gaussian::{Innovation, Step};
 
-/// A time of a filter, and the step that leads to it.
+/// State of the filter at one time, with the step from the previous time to it.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct DisturbedStep {
     /// Derivative of the step from the time before.
     pub(super) transition: DMatrix<f64>,
-    /// Variance that disturbances add on the way, for data of a variance of 1.
+    /// Covariance that disturbances add in the step, for data with a variance of 1.
     pub(super) variance: DMatrix<f64>,
-    /// Innovations by the data of the time, in the order in which they were taken.
+    /// Innovations by the data of this time, in the order in which they were used.
     pub(super) data: Vec<Innovation<Dyn>>,
 }
 
-/// What tells the disturbances of a motion.
+/// The steps of a filter, from which disturbances are estimated.
 #[derive(Clone, Debug, PartialEq, Default)]
 pub(super) struct Disturbances {
     pub(super) steps: Vec<DisturbedStep>,
-    /// Unit vectors of what constants that were fitted explain of the innovations.
+    /// Orthonormal vectors that span the effects of fitted constants on the innovations.
     pub(super) explained: Vec<Vec<f64>>,
 }
 
 impl Disturbances {
-    /// The disturbances of a filter's steps, with the innovations by the data of each time.
+    /// Creates the estimator from the steps of a filter, with the innovations by the data of each
+    /// time.
     pub(super) fn new(
         steps: Vec<Step<Dyn>>,
         data: Vec<Vec<Innovation<Dyn>>>,
@@ -44,16 +45,17 @@ impl Disturbances {
         }
     }
 
-    /// Numbers of a state.
+    /// Returns the number of components of a state.
     fn size(&self) -> usize {
         self.steps.first().map_or(0, |step| step.variance.nrows())
     }
 
-    /// Returns the changes of the state that the likeliest disturbances make in each step, by
-    /// all innovations over the roots of their variances for data of a variance of 1.
+    /// Returns the changes of the state by the most likely disturbances in each step. `innovations`
+    /// are divided by their standard deviations for data with a variance of 1.
     pub(super) fn likeliest(&self, innovations: &[f64]) -> Vec<Vec<f64>> {
         let mut innovations = innovations.iter().rev();
-        // What a change of the state would gain by all later data: r of physics (16.2).
+        // Gradient of the likelihood by a change of the state, from all later data: r of physics
+        // (16.2).
         let mut pull = DVector::zeros(self.size());
         let changes = self.steps.iter().rev().map(|step| {
             for (datum, innovation) in step.data.iter().rev().zip(&mut innovations) {
@@ -68,8 +70,8 @@ impl Disturbances {
         changes
     }
 
-    /// Returns those that noise alone feigns where nothing disturbs the motion: `noise` gives
-    /// that of a datum.
+    /// Returns the disturbances that noise alone would mimic in an undisturbed motion; `noise`
+    /// returns the noise of one datum.
     pub(super) fn spurious(&self, mut noise: impl FnMut() -> f64) -> Vec<Vec<f64>> {
         let mut state = DVector::zeros(self.size());
         let mut innovations = Vec::new();

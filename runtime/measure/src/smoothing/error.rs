@@ -1,71 +1,71 @@
-//! Why data were not smoothed.
+//! Errors in smoothing data.
 
 use core::fmt;
 
-/// Why data were not smoothed.
+/// Reason why data could not be smoothed.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum SmoothingError {
-    /// As many data as times are needed, and as many states of a guess.
+    /// The number of data, or of states of a guess, is not the number of times.
     Length {
         /// Number of times.
         times: usize,
-        /// What there are not as many of: `data` or `guess`.
+        /// Name of the argument with another number of rows: `data` or `guess`.
         rows: &'static str,
-        /// Their number.
+        /// Number of its rows.
         found: usize,
     },
-    /// Too few data that are not missing: four are needed, for polynomials two more than
-    /// their degree, by equations of motion one more than a state has numbers.
+    /// There are too few data that are not missing. Smoothing needs four; polynomials need two more
+    /// than their degree, equations of motion one more than the number of components of a state.
     TooFew {
-        /// Number of data.
+        /// Number of data given.
         found: usize,
-        /// Number that is needed.
+        /// Number of data needed.
         needed: usize,
     },
-    /// A time that is not finite or not later than the one before.
+    /// A time is not finite, or not later than the one before.
     Time {
         /// Index of the time.
         index: usize,
         /// The time, s.
         value: f64,
     },
-    /// A datum that is infinite or NaN.
+    /// A datum is infinite or NaN.
     Datum {
         /// Index of the datum.
         index: usize,
-        /// The datum.
+        /// Value of the datum.
         value: f64,
     },
-    /// The system's dimension is odd: a state is angles, followed by as many rates.
+    /// The system's dimension is odd, but a state is angles followed by their rates.
     Dimension {
         /// Dimension of the system.
         dimension: usize,
     },
-    /// A row that does not have a number for each angle of the system, of a guess one for each
+    /// A row does not have one number for each angle of the system, or, in a guess, one for each
     /// angle and rate.
     Row {
-        /// What the row belongs to: `data`, `guess`, `disturbances` or `frictions`.
+        /// Name of the argument with the row: `data`, `guess`, `disturbances` or `frictions`.
         rows: &'static str,
-        /// Index of the row, of frictions that of their kind.
+        /// Index of the row, in `frictions` within its kind.
         index: usize,
-        /// How many numbers it has.
+        /// Number of entries in the row.
         found: usize,
-        /// How many it needs.
+        /// Number of entries needed.
         needed: usize,
     },
-    /// The model's motion leaves the data, or cannot be integrated.
+    /// The model's motion departs from the data, or its integration failed.
     Diverged,
-    /// The mass matrix of a motion is not positive definite, or does not have a row and a column
-    /// for each angle.
+    /// The mass matrix at a time is not positive definite, or does not have a row and a column for
+    /// each angle.
     Mass {
         /// Index of the time.
         index: usize,
         /// Number of angles.
         angles: usize,
     },
-    /// A noise, a jerk or a density that is not finite and positive, a degree or a
-    /// window of polynomials that is not possible.
+    /// An option is invalid: a noise, jerk or density that is not finite and positive, or a degree
+    /// or window of polynomials outside its range.
     Option {
         /// Name of the option.
         name: &'static str,
@@ -90,7 +90,7 @@ impl fmt::Display for SmoothingError {
                 "time {index} is {value} s: times are finite and each later than the one before"
             ),
             Self::Datum { index, value } => {
-                write!(f, "datum {index} is {value}; missing ones are none")
+                write!(f, "datum {index} is {value}; write missing ones as `None`")
             }
             Self::Dimension { dimension } => write!(
                 f,
@@ -127,11 +127,11 @@ impl fmt::Display for SmoothingError {
 
 impl core::error::Error for SmoothingError {}
 
-/// Smallest number of data: three are met by a parabola.
+/// Smallest number of data: a parabola passes through any three.
 const FEWEST: usize = 4;
 
-/// Refuses data that do not belong to the times, are too few, or are not finite, and times
-/// that are misplaced.
+/// Checks the data and the times: there must be one datum for each time and enough of them, all
+/// must be finite, and times must ascend.
 pub(super) fn check_data(times: &[f64], data: &[Option<f64>]) -> Result<(), SmoothingError> {
     check_length(times, "data", data.len())?;
     let (found, needed) = (data.iter().flatten().count(), FEWEST);
@@ -148,7 +148,7 @@ pub(super) fn check_data(times: &[f64], data: &[Option<f64>]) -> Result<(), Smoo
     check_times(times)
 }
 
-/// Refuses rows that are not as many as times.
+/// Checks that the number of rows is the number of times.
 pub(super) fn check_length(
     times: &[f64],
     rows: &'static str,
@@ -161,7 +161,8 @@ pub(super) fn check_length(
     }
 }
 
-/// Finds the first time that is not finite or not later than the one before, with its index.
+/// Returns the first time that is not finite or not later than the one before, with its index;
+/// `None` if there is none.
 pub(crate) fn misplaced(times: &[f64]) -> Option<(usize, f64)> {
     let is_misplaced = |&(index, time): &(usize, &f64)| {
         !(time.is_finite() && (index == 0 || *time > times[index - 1]))
@@ -186,7 +187,7 @@ pub(super) fn check_option(name: &'static str, value: Option<f64>) -> Result<(),
     }
 }
 
-/// Median of the intervals between times, of which there are two or more.
+/// Returns the median of the intervals between two or more times.
 pub(super) fn usual_interval(times: &[f64]) -> f64 {
     let mut intervals: Vec<f64> = times.windows(2).map(|pair| pair[1] - pair[0]).collect();
     let middle = intervals.len() / 2;

@@ -1,11 +1,11 @@
-//! Normal distributions of a state that go forth with it and back.
+//! Normal distributions of a state in a Kalman filter and smoother.
 //!
-//! A state has `D` numbers: three by a constant, or as many as a model has.
+//! A state has `D` numbers: a constant three, or as many as a model has.
 
 use nalgebra::allocator::Allocator;
 use nalgebra::{DefaultAllocator, Dim, OMatrix, OVector};
 
-/// A normal distribution of a state, variances in units of those of the data.
+/// Normal distribution of a state; variances are in units of the variance of the data.
 #[derive(Clone, Debug)]
 pub(super) struct Gaussian<D: Dim>
 where
@@ -15,7 +15,8 @@ where
     pub(super) variance: OMatrix<f64, D, D>,
 }
 
-/// Difference of a datum from the expected one, its variance, and what it moves the state by.
+/// Innovation: the difference between a datum and its prediction, its variance, and the change of
+/// the state that it causes.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Innovation<D: Dim>
 where
@@ -25,7 +26,7 @@ where
     pub(super) component: usize,
     pub(super) value: f64,
     pub(super) variance: f64,
-    /// Change of the state for an innovation of one.
+    /// Change of the state for an innovation of 1.
     pub(super) gain: OVector<f64, D>,
 }
 
@@ -33,8 +34,8 @@ impl<D: Dim> Gaussian<D>
 where
     DefaultAllocator: Allocator<D> + Allocator<D, D>,
 {
-    /// The distribution after a step to `mean` whose derivative is `transition`, `noise`
-    /// being the variance that comes from outside.
+    /// Returns the distribution after a step. `mean` is the mean after it, `transition` its
+    /// derivative, and `noise` the variance added by disturbances.
     pub(super) fn step(
         &self,
         mean: OVector<f64, D>,
@@ -47,7 +48,7 @@ where
         Self { mean, variance }
     }
 
-    /// Takes a datum of one component into account.
+    /// Updates the distribution by a measured value of one component; returns the innovation.
     pub(super) fn update(&mut self, component: usize, datum: f64) -> Innovation<D> {
         let variance = self.variance[(component, component)] + 1.0;
         let gain = self.variance.column(component) / variance;
@@ -80,17 +81,18 @@ pub(super) struct Step<D: Dim>
 where
     DefaultAllocator: Allocator<D> + Allocator<D, D>,
 {
-    /// Derivative of the step from the time before.
+    /// Derivative of the step from the previous time to this one.
     pub(super) transition: OMatrix<f64, D, D>,
-    /// Variance that comes from outside on that step.
+    /// Variance that disturbances add in this step.
     pub(super) noise: OMatrix<f64, D, D>,
-    /// The state before the data of this time.
+    /// Distribution of the state before the data of this time are used.
     pub(super) predicted: Gaussian<D>,
     /// The state after them.
     pub(super) updated: Gaussian<D>,
 }
 
-/// Gains by which what is learnt of each state comes back to the one before, one less than steps.
+/// Returns the smoother's gains, by which the knowledge of each state corrects the previous state;
+/// one less than steps.
 pub(super) fn gains<D: Dim>(steps: &[Step<D>]) -> Vec<OMatrix<f64, D, D>>
 where
     DefaultAllocator: Allocator<D> + Allocator<D, D>,
@@ -108,7 +110,7 @@ where
     steps.iter().zip(steps.iter().skip(1)).map(gain).collect()
 }
 
-/// Means given all data, by the gains.
+/// Returns the means of all states given all data.
 pub(super) fn smoothed_means<D: Dim>(
     steps: &[Step<D>],
     gains: &[OMatrix<f64, D, D>],
@@ -124,8 +126,8 @@ where
     means
 }
 
-/// Variances given all data, by the gains; a root of the variance of each state given the next one
-/// (the last by itself).
+/// Returns the variances of all states given all data, and a square root of the variance of each
+/// state given the next one (for the last state, of the variance itself).
 pub(super) fn smoothed_variances<D: Dim>(
     steps: &[Step<D>],
     gains: &[OMatrix<f64, D, D>],
@@ -157,7 +159,7 @@ where
     [variances, roots]
 }
 
-/// The variance A P Aᵀ of A x, P that of x.
+/// Returns A P Aᵀ: the variance of A x, where P is the variance of x.
 pub(super) fn carried<D: Dim>(
     matrix: &OMatrix<f64, D, D>,
     variance: &OMatrix<f64, D, D>,
@@ -171,7 +173,7 @@ where
     matrix * half
 }
 
-/// Puts the mean of a matrix and its transpose in its place.
+/// Replaces a matrix by the mean of itself and its transpose.
 fn symmetrise<D: Dim>(matrix: &mut OMatrix<f64, D, D>)
 where
     DefaultAllocator: Allocator<D, D>,
@@ -185,8 +187,8 @@ where
     }
 }
 
-/// A lower triangular root of a variance; directions in which rounding has left none have
-/// none.
+/// Returns a lower triangular square root of a variance; directions whose variance rounding has
+/// removed get zeros.
 fn root<D: Dim>(mut variance: OMatrix<f64, D, D>) -> OMatrix<f64, D, D>
 where
     DefaultAllocator: Allocator<D> + Allocator<D, D>,
@@ -212,18 +214,20 @@ where
 /// Sums over innovations.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Innovations {
-    /// Innovations in their standard deviations, for data of a standard deviation of 1.
+    /// Innovations divided by their standard deviations, for data of standard deviation 1.
     pub(super) standard: Vec<f64>,
-    /// Number of those that the start takes up and that say nothing.
+    /// Index of the component to which each innovation belongs.
+    pub(super) components: Vec<usize>,
+    /// Number of first innovations, which determine the initial state and carry no information.
     pub(super) free: usize,
-    /// Σ ln of the variances of the others.
+    /// Sum of the logarithms of the variances of the other innovations.
     pub(super) logs: f64,
-    /// Number of constants that were fitted to them.
+    /// Number of constants that were fitted to the innovations.
     pub(super) constants: usize,
 }
 
 impl Innovations {
-    /// Sums of which the first `free` say nothing.
+    /// Creates the sums; the first `free` innovations are ignored.
     pub(super) fn new(free: usize) -> Self {
         Self {
             free,
@@ -238,6 +242,7 @@ impl Innovations {
         if self.standard.len() >= self.free {
             self.logs += innovation.variance.ln();
         }
+        self.components.push(innovation.component);
         self.standard
             .push(innovation.value / innovation.variance.sqrt());
     }
@@ -246,15 +251,15 @@ impl Innovations {
         self.standard.get(self.free..).unwrap_or_default()
     }
 
-    /// The standard deviation of the data of largest likelihood.
+    /// Returns the standard deviation of the data with the largest likelihood.
     pub(super) fn noise(&self) -> f64 {
         let used = self.used();
         (used.iter().map(|x| x * x).sum::<f64>() / used.len() as f64).sqrt()
     }
 
-    /// The logarithm of the likelihood but for a constant, for a given standard deviation of
-    /// the data or for the likeliest, less what fitted constants have to gain (G. Schwarz,
-    /// *Estimating the dimension of a model*, Annals of Statistics 6 (1978)).
+    /// Returns the log-likelihood up to a constant, for the given or the most likely standard
+    /// deviation of the data, minus the penalty for fitted constants (G. Schwarz, *Estimating the
+    /// dimension of a model*, Annals of Statistics 6 (1978)).
     pub(super) fn log_likelihood(&self, noise: Option<f64>) -> f64 {
         let count = self.used().len() as f64;
         let own = self.noise();

@@ -1,13 +1,13 @@
-//! Integrals over time of quantities that are known at given times.
+//! Integrals over time of quantities given at certain times.
 
-/// Values to which the polynomial between two times is fitted.
+/// Number of values through which the polynomial between two times passes.
 const NODES: usize = 6;
 
-/// Returns the integral of a quantity from the first time to each: over each interval by
-/// Simpson's rule, its middle by the polynomial through the six nearest values. Exact for
-/// cubics, with even and uneven times; the integral of a swing cos ω t at steps h is off by less
-/// than (ω h)⁴/1400 of its amplitude 1/ω where ω h ≤ 0.3, as much as the rule itself. As many
-/// values as times are used.
+/// Returns the integral of a quantity from the first time to each: over each interval by Simpson's
+/// rule, its middle by the polynomial through the six nearest values. Exact for cubics, with even
+/// and uneven times; for cos ω t with steps h, the relative error of the integral is below (ω
+/// h)⁴/1400 if ω h ≤ 0.3, like that of the rule itself. If there are more values than times, the
+/// rest is ignored.
 ///
 /// # Examples
 ///
@@ -40,7 +40,8 @@ pub fn running_integral(times: &[f64], values: &[f64]) -> Vec<f64> {
     integral
 }
 
-/// The polynomial through points, at a time (Lagrange's form).
+/// Returns the polynomial through the points (`times`, `values`) at the time `at`, by Lagrange's
+/// formula.
 fn interpolated(times: &[f64], values: &[f64], at: f64) -> f64 {
     let weighted = times.iter().zip(values).enumerate();
     let weighted = weighted.map(|(own, (time, value))| {

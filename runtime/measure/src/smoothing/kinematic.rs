@@ -1,4 +1,5 @@
-//! Kalman filter and Rauch–Tung–Striebel smoother of a motion whose jerk is white noise.
+//! Smoothing of a motion whose jerk is white noise, by a Kalman filter and a Rauch–Tung–Striebel
+//! smoother.
 
 use nalgebra::{Matrix3, U3, Vector3};
 
@@ -7,8 +8,8 @@ use super::gaussian::{Gaussian, Innovations, Step, gains};
 use super::likelihood::largest;
 use super::series::{Scale, SmoothedMotion};
 
-/// A smoother that knows of a motion only that it is smooth: the third derivative is white
-/// noise of a spectral density q, the data have white noise of a standard deviation σ.
+/// A smoother that assumes only that a motion is smooth: its third derivative is white noise of
+/// spectral density q, and the data have white noise of standard deviation σ.
 ///
 /// H. E. Rauch, F. Tung, C. T. Striebel, *Maximum likelihood estimates of linear dynamic
 /// systems*, AIAA Journal 3 (1965). Times may be uneven, data may be missing.
@@ -44,17 +45,16 @@ use super::series::{Scale, SmoothedMotion};
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub struct KinematicSmoother {
-    /// Standard deviation σ of the data, in their unit; without it the one of largest
-    /// likelihood.
+    /// Standard deviation σ of the data, in their unit; `None` for the most likely value.
     pub noise: Option<f64>,
-    /// Spectral density q of the jerk, in the data's unit squared over s⁵; without it the
-    /// one of largest likelihood.
+    /// Spectral density q of the jerk, in the squared unit of the data over s⁵; `None` for the most
+    /// likely value.
     pub jerk: Option<f64>,
 }
 
 impl KinematicSmoother {
-    /// Estimates the motion at all times, where data are missing too. Linear in the number
-    /// of times, for each of some 50 values of q that are tried.
+    /// Estimates the motion at all times, also where data are missing. The effort is linear in the
+    /// number of times, for each of about 50 values of q that are tried.
     ///
     /// # Errors
     ///
@@ -107,13 +107,13 @@ impl KinematicSmoother {
     }
 }
 
-/// Logarithms of q τ⁵/σ² among which the likeliest is sought, τ the usual interval.
+/// Range of ln(q τ⁵/σ²) in which the most likely value is searched, with the usual interval τ.
 const LOG_RATIOS: [f64; 2] = [-60.0, 20.0];
-/// Variance of the state before the first datum, in σ²: its weight beside the data is the
-/// inverse.
+/// Variance of the state before the first datum, in units of σ²: so large that it has no weight
+/// compared with the data.
 pub(super) const DIFFUSE: f64 = 1e10;
 
-/// Data with times in units of the usual interval.
+/// The data, with times in units of the usual interval.
 struct JerkFilter<'a> {
     times: &'a [f64],
     data: &'a [Option<f64>],
@@ -122,7 +122,7 @@ struct JerkFilter<'a> {
 }
 
 impl JerkFilter<'_> {
-    /// Runs the filter with r = q τ⁵/σ², and hands its steps on.
+    /// Runs the filter with the ratio r = q τ⁵/σ², and passes each step to `keep`.
     fn filter(&self, ratio: f64, mut keep: impl FnMut(Step<U3>)) -> Innovations {
         let first = self.data.iter().flatten().next().copied().unwrap_or(0.0);
         let mut state = Gaussian {
@@ -150,8 +150,8 @@ impl JerkFilter<'_> {
     }
 }
 
-/// Transition over h usual intervals and the variance that the jerk adds, in units of σ²
-/// (physics §16).
+/// Returns the transition matrix over h usual intervals, and the covariance that the jerk adds, in
+/// units of σ² (physics §16).
 fn step(h: f64, ratio: f64) -> (Matrix3<f64>, Matrix3<f64>) {
     let transition = Matrix3::new(1.0, h, 0.5 * h * h, 0.0, 1.0, h, 0.0, 0.0, 1.0);
     let factorial = [1.0, 1.0, 2.0];

@@ -1,7 +1,7 @@
-//! The largest values of likelihoods.
+//! Maximisation of likelihoods.
 
-/// Returns where a function is largest in an interval: the best of a grid, refined between
-/// its neighbours by golden sections. Where it is not finite it counts as smallest.
+/// Returns the argument at which a function is largest in an interval: the best point of a grid,
+/// refined between its neighbours by golden sections. Values that are not finite count as smallest.
 pub(super) fn largest(function: impl Fn(f64) -> f64, [low, high]: [f64; 2]) -> f64 {
     const GRID: u32 = 40;
     const SECTIONS: u32 = 16;
@@ -37,9 +37,9 @@ pub(super) fn largest(function: impl Fn(f64) -> f64, [low, high]: [f64; 2]) -> f
     0.5 * (low + high)
 }
 
-/// Returns a place near `at` where a function of some variables is large: each in turn goes
-/// on while that gains, in steps that are halved, where no step gains, down to `least`. No
-/// variable falls below `low`.
+/// Returns a point near `at` at which a function of several variables is large. It changes one
+/// variable after the other in steps, as long as the value increases, and halves the steps down to
+/// `least` if no step increases it. No variable falls below `low`.
 pub(super) fn climb(
     function: impl Fn(&[f64]) -> f64,
     mut at: Vec<f64>,
@@ -55,7 +55,7 @@ pub(super) fn climb(
                     let before = at[index];
                     at[index] = (before + side).max(low);
                     let value = function(&at);
-                    // NaN is no gain.
+                    // False for NaN.
                     if value > best && at[index] != before {
                         (best, gains) = (value, true);
                     } else {

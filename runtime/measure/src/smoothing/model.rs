@@ -1,4 +1,4 @@
-//! Smoother whose motion obeys equations of motion.
+//! Smoothing of measured angles by equations of motion.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -11,25 +11,25 @@ use super::series::{Scale, SmoothedMotion};
 use branched_pendulum::analysis::variational::{Linearised, Variational};
 use branched_pendulum::integrate::Integrator;
 
-/// A smoother that knows the equations of motion: between times the state follows them but
-/// for white generalized forces of a spectral density q, which stand for all that the
-/// model lacks. Gauss–Newton iteration of a Kalman smoother about the motion's own
-/// linearisation (physics §16; B. M. Bell, *The iterated Kalman smoother as a Gauss–Newton
-/// method*, SIAM J. Optim. 4 (1994)).
+/// A smoother that uses the equations of motion: between two times the state obeys the equations,
+/// disturbed by white-noise generalized forces of spectral density q, which represent everything
+/// that the model lacks. It is a Gauss–Newton iteration of a Kalman smoother, linearised about the
+/// motion (physics §16; B. M. Bell, *The iterated Kalman smoother as a Gauss–Newton method*, SIAM
+/// J. Optim. 4 (1994)).
 ///
-/// With the likeliest q, errors are as small as the model is good: with the right model
-/// those of the best single trajectory, with a wrong one no worse than without any. What a
-/// model lacks seldom acts on all links alike: friction on the motion in phase is far larger
-/// than on a small difference of identical branches. [`disturbances`](Self::disturbances)
-/// tell such patterns apart, and each has a density of its own.
+/// With the most likely q, errors depend on the quality of the model: with the right model they are
+/// those of the best single trajectory, with a wrong one no larger than without any model. Forces
+/// that a model lacks seldom act equally on all links: friction on the motion in phase is far larger
+/// than on a small difference of identical branches. [`disturbances`](Self::disturbances) separates
+/// such patterns, each with its own density.
 ///
-/// White forces stand for anything, and know nothing of friction: that it is
-/// opposite to the velocity all the time. [`frictions`](Self::frictions) finds what the
-/// equations lack of it, or have too much, as a coefficient for each joint.
+/// White forces do not represent friction well, since it is always opposite to the velocity.
+/// [`frictions`](Self::frictions) fits the friction that the equations lack, or have in excess, as
+/// a coefficient for each kind.
 ///
-/// Whether the equations hold is asked of the motion's
-/// [`disturbances`](SmoothedMotion::disturbances): noise alone does not bring much more energy
-/// than [`spurious_disturbances`](SmoothedMotion::spurious_disturbances).
+/// To test the equations, compare the motion's [`disturbances`](SmoothedMotion::disturbances) with
+/// [`spurious_disturbances`](SmoothedMotion::spurious_disturbances), which noise alone causes: they
+/// have much more energy only if the equations are wrong.
 ///
 /// # Examples
 ///
@@ -54,44 +54,45 @@ use branched_pendulum::integrate::Integrator;
 /// ```
 #[derive(Clone, Debug, PartialEq, Default)]
 pub struct ModelSmoother {
-    /// Standard deviation σ of measured angles, rad; without it the one of largest
-    /// likelihood.
+    /// Standard deviation σ of measured angles, rad; `None` for the most likely value.
     pub noise: Option<f64>,
-    /// Spectral density q of the generalized forces, (N m)² s; without it the one of
-    /// largest likelihood.
+    /// Spectral density q of the generalized forces, (N m)² s; `None` for the most likely value.
     pub density: Option<f64>,
-    /// Patterns of the generalized forces, each a number for each angle and with the likeliest
-    /// density of its own; without any all angles are disturbed independently with one density.
+    /// Patterns of the generalized forces, each with one number for each angle. Each pattern has
+    /// its own density, the most likely one. If empty, all angles are disturbed independently with
+    /// one density.
     pub disturbances: Vec<Vec<f64>>,
-    /// Viscous friction that the equations may lack: of each kind the relative angles p·θ on
-    /// which it acts, one for each joint, with torques −c Σ p (p·ω); p is a number for each angle.
-    /// Each coefficient c (N m s) is found where the likelihood gains more by it than one more
-    /// number does by itself (Schwarz's criterion), and zero otherwise.
+    /// Kinds of viscous friction that the equations may lack. A kind is a list of relative angles
+    /// p·θ on which it acts, one for each joint, with torques −c Σ p (p·ω); p has one number for
+    /// each angle. The coefficient c (N m s) of a kind is fitted if it increases the likelihood by
+    /// more than an additional number does by chance (Schwarz's criterion), and is zero otherwise.
     pub frictions: Vec<Vec<Vec<f64>>>,
 }
 
-/// Change of the angles, in deviations of the data, below which they end.
+/// Change of the angles, in standard deviations of the data, below which the iteration ends.
 const CONVERGED: f64 = 1e-3;
-/// Change of the angles where the likelihood alone is asked for.
+/// Change of the angles, in standard deviations of the data, below which the iteration ends if only
+/// the likelihood is needed.
 const NEAR: f64 = 0.1;
-/// Logarithms of q τ³/σ² that are tried, from the largest down: each motion starts from the
-/// one before, and a model that is not trusted is easily met.
+/// Range of ln(q τ³/σ²) that is searched, from the largest value down: each motion starts from the
+/// previous one, and with a large density q any motion is fitted easily. τ is the interval between
+/// data, σ their standard deviation.
 const LOG_RATIOS: [f64; 2] = [-35.0, 2.0];
-/// Distance of two of them.
+/// Distance between two values of ln(q τ³/σ²) in the first search.
 const LOG_STEP: f64 = 2.5;
-/// Loss of likelihood after which smaller ones are not tried.
+/// Decrease of the log-likelihood from its maximum after which smaller values are not tried.
 const HOPELESS: f64 = 20.0;
-/// Steps by which the likeliest ones are approached, the first and the last.
+/// First and last step of the refined search for the most likely values, in logarithms.
 const STEPS: [f64; 2] = [LOG_STEP, 0.3];
-/// Times that the likeliest ones are sought, each about the motion of the last ones.
+/// Number of refined searches, each linearised about the motion of the one before.
 const SEARCHES: usize = 2;
 
 impl ModelSmoother {
-    /// Longest step (s) from time to time of a method of fourth order: its error is far
-    /// below that of any camera.
+    /// Longest step (s) of a fourth-order method between two times; its error is far below that of
+    /// any camera.
     pub const LONGEST_STEP: f64 = 2e-3;
 
-    /// Estimates angles and angular velocities at all times, where data are missing too.
+    /// Estimates angles and angular velocities at all times, also where data are missing.
     ///
     /// | argument | meaning |
     /// |---|---|
@@ -196,7 +197,7 @@ impl ModelSmoother {
         check_option("density", self.density)
     }
 
-    /// Covariances of the forces that have a density of their own.
+    /// Returns the covariances of the generalized forces, one for each separate density.
     fn kinds(&self, links: usize) -> Vec<DMatrix<f64>> {
         if self.disturbances.is_empty() {
             return vec![DMatrix::identity(links, links)];
@@ -204,8 +205,8 @@ impl ModelSmoother {
         self.disturbances.iter().map(|own| square(own)).collect()
     }
 
-    /// Torques of each kind of friction by angular velocities, for a coefficient of one, with
-    /// the sign of the friction.
+    /// Returns, for each kind of friction, the matrix that converts angular velocities to friction
+    /// torques (with their sign) for a coefficient of 1.
     fn torques_of_friction(&self, links: usize) -> Vec<DMatrix<f64>> {
         let none = DMatrix::zeros(links, links);
         let sum = |joints: &Vec<Vec<f64>>| {
@@ -234,7 +235,7 @@ impl ModelSmoother {
         let mut last = best.motion.clone();
         while log > low {
             log -= LOG_STEP;
-            // A model that cannot follow the data any more has been trusted too far.
+            // With an even smaller density the model cannot follow the data: the search ends.
             let Ok(next) = problem.solve(&[log], last, NEAR) else {
                 break;
             };
@@ -246,12 +247,12 @@ impl ModelSmoother {
                 best = next;
             }
         }
-        // A density that is given is that of all patterns.
+        // A given density is that of all patterns.
         if self.density.is_none() {
             best.logs = vec![best.logs[0]; problem.kinds.len()];
         }
         for search in 1..=SEARCHES {
-            // The linearisation about the best motion serves its neighbours.
+            // Uses the linearisation about the best motion for nearby values.
             let linear = problem.linearise(&best.motion)?;
             let near = |logs: &[f64]| {
                 problem.likelihood(
@@ -267,7 +268,7 @@ impl ModelSmoother {
     }
 }
 
-/// Refuses rows, by their indices and lengths, that do not have a number for each of `needed`.
+/// Checks that each row has `needed` entries; `lengths` yields the index and length of each row.
 fn check_rows(
     rows: &'static str,
     needed: usize,
@@ -288,15 +289,15 @@ fn column(row: &[f64]) -> DVector<f64> {
     DVector::from_column_slice(row)
 }
 
-/// The matrix p pᵀ of a row p.
+/// Returns the matrix p pᵀ of a row p.
 fn square(row: &[f64]) -> DMatrix<f64> {
     let column = column(row);
     &column * column.transpose()
 }
 
-/// Density of the accelerations by forces of these covariances, a mean over the links and the
-/// motion: by which densities of forces are told as such of accelerations. One where there are
-/// no forces.
+/// Returns the spectral density of the accelerations that forces with these covariances cause, as a
+/// mean over the links and the motion. It converts densities of forces to densities of
+/// accelerations; 1 if there are no forces.
 fn size_of_accelerations(
     kinds: &[DMatrix<f64>],
     mass_matrix: impl Fn(&[f64]) -> Vec<Vec<f64>>,
@@ -314,7 +315,7 @@ fn size_of_accelerations(
     Ok(if mean > 0.0 { mean } else { 1.0 })
 }
 
-/// The motion of a solution with its errors, `size` being that of [`size_of_accelerations`].
+/// Returns the motion of a solution with its errors; `size` comes from [`size_of_accelerations`].
 fn smoothed<L, M, A>(
     problem: &ModelFilter<'_, L, M, A>,
     solution: SmoothingSolution,

@@ -1,4 +1,4 @@
-//! Kalman filter and smoother about a motion of given equations.
+//! Kalman filter and smoother, linearised about a motion that satisfies given equations.
 
 use nalgebra::{DMatrix, DVector, Dyn};
 
@@ -10,14 +10,14 @@ use branched_pendulum::analysis::variational::{Linearised, Variational, flow_jac
 use branched_pendulum::integrate::Integrator;
 use branched_pendulum::system::State;
 
-/// Steps of Gauss and Newton for one q at most.
+/// Largest number of Gauss–Newton iterations for one value of the density q.
 const ITERATIONS: usize = 12;
 
-/// Data and the equations of what they were measured on.
+/// Measured data, and the equations of motion of the measured system.
 pub(super) struct ModelFilter<'a, L, M, A> {
     pub(super) method: &'a M,
     pub(super) system: &'a L,
-    /// Rows of the mass matrix at angles.
+    /// Function that returns the rows of the mass matrix at given angles.
     pub(super) mass_matrix: A,
     pub(super) times: &'a [f64],
     pub(super) data: &'a [Vec<Option<f64>>],
@@ -25,58 +25,60 @@ pub(super) struct ModelFilter<'a, L, M, A> {
     pub(super) links: usize,
     /// The usual interval, s.
     pub(super) unit: f64,
-    /// Standard deviation of the data, where it is given.
+    /// Standard deviation of the data; `None` if it is to be estimated.
     pub(super) noise: Option<f64>,
-    /// Density of the disturbances, where it is given.
+    /// Spectral density of the disturbances; `None` if it is to be estimated.
     pub(super) density: Option<f64>,
-    /// Covariances of the disturbances, each of such a density that the accelerations have one
-    /// of about 1.
+    /// Covariances of the disturbances, scaled so that the density of the accelerations is about 1.
     pub(super) kinds: Vec<DMatrix<f64>>,
-    /// Torques of friction with a coefficient of one, by angular velocities, with the sign
-    /// of the friction.
+    /// For each kind of friction, the matrix that converts angular velocities to friction torques
+    /// (with their sign) for a coefficient of 1.
     pub(super) frictions: Vec<DMatrix<f64>>,
 }
 
-/// The flow from one time to the next about a motion.
+/// Motion from one time to the next, linearised about a given motion.
 pub(super) struct LinearFlow {
-    /// Where it leads without the friction that the equations lack.
+    /// State at the end of the step, without the additional friction.
     end: DVector<f64>,
-    /// Derivative of the end, with that friction as it is.
+    /// Derivative of the end by the start, including the additional friction.
     transition: DMatrix<f64>,
-    /// Changes of the end by coefficients of friction of one, a column each.
+    /// Changes of the end caused by each friction coefficient with the value 1, one column per
+    /// coefficient.
     effects: DMatrix<f64>,
-    /// Accelerations by generalized forces.
+    /// Inverse of the mass matrix, which converts generalized forces to accelerations.
     inverse_mass: DMatrix<f64>,
 }
 
-/// Findings of a filter.
+/// Results of a run of the filter.
 pub(super) struct Filtered {
     pub(super) innovations: Innovations,
     pub(super) steps: Vec<Step<Dyn>>,
-    /// Innovations by the data of each time, in the order in which they were taken.
+    /// Innovations (prediction errors) of the data at each time, in the order in which they were
+    /// used.
     pub(super) data: Vec<Vec<Innovation<Dyn>>>,
-    /// The coefficients of friction.
+    /// The fitted friction coefficients.
     pub(super) constants: FittedConstants,
-    /// Changes of each innovation by coefficients of one, in its deviations.
+    /// Changes of each innovation caused by friction coefficients of 1, in units of the
+    /// innovation's standard deviation.
     pub(super) rows: Vec<DVector<f64>>,
-    /// Changes of the states by coefficients of one.
+    /// Changes of the states caused by friction coefficients of 1.
     pub(super) effects: Vec<StepEffects>,
 }
 
-/// A motion, with the friction that acts on it beside the equations.
+/// A motion, with the fitted friction that acts in addition to that in the equations.
 #[derive(Clone)]
 pub(super) struct BrakedMotion {
     pub(super) states: Vec<DVector<f64>>,
-    /// Coefficients of the friction.
+    /// Friction coefficients.
     pub(super) frictions: DVector<f64>,
 }
 
-/// The motion for given ratios q τ³/σ².
+/// The most likely motion for given ratios q τ³/σ² of disturbance and noise.
 pub(super) struct SmoothingSolution {
-    /// Their logarithms: one for each kind of disturbance, or one for all.
+    /// Logarithms of the ratios q τ³/σ²: one for each kind of disturbance, or one for all.
     pub(super) logs: Vec<f64>,
     pub(super) motion: BrakedMotion,
-    /// Findings of the filter that led to it.
+    /// Results of the filter run for this motion.
     pub(super) filtered: Filtered,
 }
 
@@ -86,14 +88,16 @@ where
     M: for<'a> Integrator<f64, Variational<'a, L>>,
     A: Fn(&[f64]) -> Vec<Vec<f64>>,
 {
-    /// The deviation of the data that goes with logarithms of ratios, where one is given.
+    /// Returns the standard deviation of the data for these logarithms of the ratios, if it or the
+    /// density is given.
     fn given_noise(&self, logs: &[f64]) -> Option<f64> {
         let ratio = || logs.first().map_or(1.0, |log| log.exp());
         let of = |q: f64| (q * self.unit.powi(3) / ratio()).sqrt();
         self.noise.or_else(|| self.density.map(of))
     }
 
-    /// The deviation of the data, given or the likeliest.
+    /// Returns the standard deviation of the data: the given or, if none is given, the most likely
+    /// one.
     pub(super) fn noise_of(&self, logs: &[f64], innovations: &Innovations) -> f64 {
         self.given_noise(logs)
             .unwrap_or_else(|| innovations.noise())
@@ -103,8 +107,8 @@ where
         innovations.log_likelihood(Some(self.noise_of(logs, innovations)))
     }
 
-    /// Iterates from a motion to the likeliest one, until it changes by `converged`
-    /// deviations of the data.
+    /// Iterates from a motion to the most likely motion, until a change is smaller than `converged`
+    /// standard deviations of the data.
     pub(super) fn solve(
         &self,
         logs: &[f64],
@@ -119,7 +123,7 @@ where
             let mut change = 0.0_f64;
             for (old, new) in motion.states.iter().zip(&smoothed) {
                 for (old, new) in old.iter().zip(new).take(self.links) {
-                    // NaN does not pass as small.
+                    // Written so that NaN does not count as small.
                     change = if (new - old).abs() <= change {
                         change
                     } else {
@@ -172,8 +176,8 @@ where
             .collect()
     }
 
-    /// Adds friction to a flow over h: changes of its end by coefficients of one, and of its
-    /// derivative by those that were found.
+    /// Adds friction to the linearised motion over a step of length h: the changes of its end by
+    /// coefficients of 1, and the change of its derivative by the fitted coefficients.
     fn brake(
         &self,
         flow: &mut LinearFlow,
@@ -186,11 +190,11 @@ where
         let middle = first.halfway(last, h);
         let at_middle = inverse_mass(&self.mass_matrix, middle.angles.as_slice(), index)?;
         let at_last = inverse_mass(&self.mass_matrix, last.angles.as_slice(), index)?;
-        // The second half of the flow: a root of the whole, by its series.
+        // The second half of the flow: the square root of the whole, by its series.
         let unit = DMatrix::identity(2 * links, 2 * links);
         let change = &flow.transition - &unit;
         let half = unit + 0.5 * &change - 0.125 * &change * &change;
-        // Changes of the end by those of rates.
+        // Changes of the end by changes of the rates at the start and in the middle.
         let [whole, half] = [&flow.transition, &half].map(|flow| flow.columns(links, links));
         let mut found = DMatrix::zeros(links, links);
         let kinds = self.frictions.iter().zip(coefficients).enumerate();
@@ -198,7 +202,7 @@ where
             let braking = |inverse_mass: &DMatrix<f64>, at: &AnglesAndRates| {
                 inverse_mass * (friction * &at.rates)
             };
-            // Simpson's rule for what a push at each time has become at the end.
+            // Simpson's rule for the effects at the end of pushes at all times.
             let mut pushes = whole * braking(&flow.inverse_mass, first);
             pushes += half * braking(&at_middle, &middle) * 4.0;
             let mut rates = pushes.rows_mut(links, links);
@@ -215,7 +219,7 @@ where
         Ok(())
     }
 
-    /// Runs the filter and keeps its steps.
+    /// Runs the filter and returns its steps.
     pub(super) fn filter(
         &self,
         logs: &[f64],
@@ -225,7 +229,7 @@ where
         self.run(logs, motion, flow, true)
     }
 
-    /// Runs the filter for its innovations alone.
+    /// Runs the filter and returns only its innovations (prediction errors).
     pub(super) fn innovations(
         &self,
         logs: &[f64],
@@ -314,7 +318,7 @@ where
         }
     }
 
-    /// The state before the first data: not known.
+    /// Returns the distribution of the state before the first data: practically no information.
     fn start(&self, motion: &[DVector<f64>]) -> Gaussian<Dyn> {
         let rates = DIFFUSE / (self.unit * self.unit);
         let variances = DVector::from_fn(2 * self.links, |row, _| {
@@ -326,7 +330,7 @@ where
         }
     }
 
-    /// Variance that white accelerations add over h usual intervals.
+    /// Returns the covariance that white-noise accelerations add over `h` usual intervals.
     fn noise(&self, accelerations: &DMatrix<f64>, h: f64) -> DMatrix<f64> {
         let (unit, links) = (self.unit, self.links);
         DMatrix::from_fn(2 * links, 2 * links, |row, column| {
@@ -340,7 +344,7 @@ where
     }
 }
 
-/// Angles and angular velocities at one time.
+/// Angles and angular velocities of all links at one time.
 struct AnglesAndRates {
     angles: DVector<f64>,
     rates: DVector<f64>,
@@ -355,7 +359,8 @@ impl AnglesAndRates {
         }
     }
 
-    /// Angles and rates in the middle of h until others, by Hermite's cubic.
+    /// Returns the angles and velocities in the middle between this time and the next one, `h`
+    /// later, by Hermite's cubic polynomial.
     fn halfway(&self, next: &Self, h: f64) -> Self {
         let step = &next.angles - &self.angles;
         Self {
@@ -365,7 +370,8 @@ impl AnglesAndRates {
     }
 }
 
-/// Returns the inverse of the mass matrix at the angles of the time with this index.
+/// Returns the inverse of the mass matrix at the given angles; `index` is the index of the time,
+/// for messages.
 pub(super) fn inverse_mass(
     mass_matrix: impl Fn(&[f64]) -> Vec<Vec<f64>>,
     angles: &[f64],

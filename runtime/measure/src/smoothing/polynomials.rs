@@ -1,19 +1,19 @@
-//! Smoothing by polynomials through the data near each time.
+//! Smoothing by polynomials that are fitted to the data near each time.
 
 use nalgebra::{DMatrix, SVector};
 
 use super::error::{SmoothingError, check_data, check_option};
 use super::series::{DataWeights, SmoothedMotion};
 
-/// A smoother that knows nothing of a motion as a whole: near each time a polynomial is
-/// fitted to the data, with weights that fall off to the ends of its window. A cross-check of
-/// [`KinematicSmoother`](super::KinematicSmoother) that assumes neither a white jerk nor
+/// A smoother without any model of the motion as a whole: near each time it fits a polynomial to
+/// the data, with weights that decrease towards the ends of its window. It is a cross-check of
+/// [`KinematicSmoother`](super::KinematicSmoother), since it assumes neither a white jerk nor white
 /// innovations.
 ///
-/// A. Savitzky, M. J. E. Golay, *Smoothing and differentiation of data by simplified least
-/// squares procedures*, Anal. Chem. 36 (1964), here for uneven times and missing data, and up
-/// to the ends of the record. The bars are those of the noise: what a polynomial cannot
-/// follow is not in them.
+/// A. Savitzky, M. J. E. Golay, *Smoothing and differentiation of data by simplified least squares
+/// procedures*, Anal. Chem. 36 (1964), here extended to uneven times, to missing data and to the
+/// ends of the record. Errors include only the noise, not the deviation of the motion from a
+/// polynomial.
 ///
 /// # Examples
 ///
@@ -32,12 +32,12 @@ use super::series::{DataWeights, SmoothedMotion};
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LocalPolynomials {
-    /// Degree of the polynomials, 2 to 8. An odd one has rates as true as values.
+    /// Degree of the polynomials, 2 to 8. For odd degrees, rates are as accurate as values.
     pub degree: u8,
-    /// Number of data in a window; without it the one that foretells each datum best from
-    /// the others.
+    /// Number of data in a window; `None` for the number that gives the best prediction of each
+    /// datum from the others.
     pub window: Option<usize>,
-    /// Standard deviation of the data; without it that of what the polynomials leave.
+    /// Standard deviation of the data; `None` to use that of the residuals of the polynomials.
     pub noise: Option<f64>,
 }
 
@@ -51,16 +51,16 @@ impl Default for LocalPolynomials {
     }
 }
 
-/// Largest number of data in a window that is tried.
+/// Largest number of data in a window that is tried when the best window is searched.
 const WIDEST: usize = 2001;
-/// Growth of the windows that are tried.
+/// Ratio of the lengths of two successive windows in that search.
 const GROWTH: f64 = 1.15;
-/// Wider windows are not tried where the error is that of the best one, squared, so often.
+/// Squared error, relative to that of the best window, above which wider windows are not tried.
 const HOPELESS: f64 = 4.0;
 
 impl LocalPolynomials {
-    /// Estimates the motion at all times, where data are missing too. Linear in the number of
-    /// times, for each of up to 40 windows that are tried.
+    /// Estimates the motion at all times, also where data are missing. The effort is linear in the
+    /// number of times, for each of up to 40 windows that are tried.
     ///
     /// # Errors
     ///
@@ -109,16 +109,16 @@ impl LocalPolynomials {
     }
 }
 
-/// Data that are not missing.
+/// The data without missing values.
 struct Record {
-    /// Times and values.
+    /// Times and values of the data.
     points: Vec<[f64; 2]>,
     degree: usize,
 }
 
-/// Remainder of the data beside polynomials.
+/// Errors of the data relative to the fitted polynomials.
 struct Errors {
-    /// Mean square by which data differ from what the others foretell.
+    /// Mean squared difference between a datum and its prediction from the others.
     foretold: f64,
     /// Standard deviation of the data.
     noise: f64,
@@ -154,7 +154,7 @@ impl Record {
             let own = own.and_then(|own| weights.weights.get(own));
             let own = own.map_or(0.0, |weight| weight[0]);
             let left = value - mean;
-            // Where a polynomial meets its datum the others foretell nothing.
+            // The weight of the datum itself may be 1; then the others predict nothing.
             foretold += (left / (1.0 - own).max(f64::EPSILON)).powi(2);
             squares += left * left;
             freedom += 1.0 - 2.0 * own + square;
@@ -165,8 +165,8 @@ impl Record {
         }
     }
 
-    /// Weights of the data of the window about a time in the first `D` of value, first and
-    /// second derivative of the polynomial there.
+    /// Returns the weights of the data in the window about a time, with which the first `D` of
+    /// value, first and second derivative of the polynomial at that time are computed.
     fn weights<const D: usize>(&self, time: f64, window: usize) -> DataWeights<[f64; D]> {
         let after = self.points.partition_point(|[other, _]| *other < time);
         let mut first = after.saturating_sub(window);
@@ -177,11 +177,11 @@ impl Record {
         }
         let near = &self.points[first..first + window];
         let reach = near.iter().map(|[other, _]| (other - time).abs());
-        // Beyond the farthest, which counts as well.
+        // Extends a little beyond the farthest datum, so that it has a weight.
         let reach = reach.fold(0.0, f64::max) * (1.0 + 1.0 / window as f64);
         let places = near.iter().map(|[other, _]| (other - time) / reach);
         let places: Vec<f64> = places.collect();
-        // The normal equations hold moments alone.
+        // The normal equations contain moments only.
         let mut moments = vec![0.0; 2 * self.degree + 1];
         for place in &places {
             let mut power = 1.0 - place * place;
@@ -192,7 +192,7 @@ impl Record {
         }
         let columns = self.degree + 1;
         let normal = DMatrix::from_fn(columns, columns, |row, column| moments[row + column]);
-        // Of their inverse the rows that are asked for.
+        // The first rows of their inverse.
         let asked = DMatrix::identity(columns, D);
         let solved = normal.cholesky().map(|f| f.solve(&asked));
         let solved = solved.unwrap_or_else(|| DMatrix::zeros(columns, D));

@@ -6,8 +6,8 @@ use nalgebra::{DefaultAllocator, Dim, OMatrix, OVector};
 use super::disturbances::Disturbances;
 use super::gaussian::{Innovations, Step, smoothed_means, smoothed_variances};
 
-/// A motion at every time, its errors, and draws from all motions that the data allow. A state
-/// is a row of numbers: for a [`KinematicSmoother`](super::KinematicSmoother) and
+/// An estimated motion at every time, its errors, and random draws of motions that agree with the
+/// data. A state is a row of numbers: for a [`KinematicSmoother`](super::KinematicSmoother) and
 /// [`LocalPolynomials`](super::LocalPolynomials) a coordinate, its first and its second time
 /// derivative in an array, for a [`ModelSmoother`](super::ModelSmoother) all angles, followed by
 /// their angular velocities, in a vector.
@@ -19,27 +19,31 @@ pub struct SmoothedMotion<R = [f64; 3]> {
     frictions: Vec<f64>,
     means: Vec<R>,
     deviations: Vec<R>,
-    /// The row beyond the last time: NaN.
+    /// The state that is returned after the last time: all numbers NaN.
     beyond: R,
     errors: Errors<R>,
     innovations: Vec<f64>,
+    /// Index of the component to which each innovation belongs.
+    components: Vec<usize>,
     disturbances: Disturbances,
     free: usize,
 }
 
-/// How the errors of a motion follow from independent ones of a deviation of 1.
+/// How the errors of a motion are computed from independent normal numbers.
 #[derive(Clone, Debug, PartialEq)]
 enum Errors<R> {
-    /// From that at the next time and errors of its own.
+    /// Backwards from the error at the next time, plus independent errors.
     Steps {
-        /// Matrices for the next one, column by column, one time after the other.
+        /// Matrices that multiply the error at the next time, column by column, one time after the
+        /// other.
         gains: Vec<f64>,
-        /// Matrices for own errors, likewise.
+        /// Also matrices for own errors.
         roots: Vec<f64>,
-        /// Changes at each time by errors that all states share.
+        /// For each source of error that is common to all times, the resulting change of the state
+        /// at each time.
         shared: Vec<Vec<R>>,
     },
-    /// As sums over errors of data.
+    /// As weighted sums of the errors of the data.
     Sums {
         rows: Vec<DataWeights<R>>,
         /// Number of data.
@@ -49,7 +53,7 @@ enum Errors<R> {
     },
 }
 
-/// Weights of some data, from the one with index `first` on, in a state.
+/// Weights of consecutive data in a state; the first datum has the index `first`.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct DataWeights<R> {
     pub(super) first: usize,
@@ -63,7 +67,7 @@ impl<R: AsRef<[f64]>> DataWeights<R> {
     }
 }
 
-/// Adds a multiple of a row to another.
+/// Adds a multiple of one row to another.
 // Where this is inlined, the length of an array is known: draws take a third of the time.
 #[inline(always)]
 fn add(sum: &mut [f64], factor: f64, row: &[f64]) {
@@ -72,22 +76,21 @@ fn add(sum: &mut [f64], factor: f64, row: &[f64]) {
     }
 }
 
-/// Knowledge of a smoother's state beside the steps.
+/// Properties of a smoother's state that its steps do not contain.
 pub(super) struct Scale<D: Dim>
 where
     DefaultAllocator: Allocator<D>,
 {
     /// Standard deviation of the data.
     pub(super) noise: f64,
-    /// Spectral densities of what disturbs the motion.
+    /// Spectral densities of the disturbances of the motion.
     pub(super) densities: Vec<f64>,
-    /// Factors that take the state to the user's units.
+    /// Factors that convert the numbers of a state to the user's units.
     pub(super) factors: OVector<f64, D>,
 }
 
 impl<R> SmoothedMotion<R> {
-    /// A motion that a filter has gone over, with the gains of its steps, in rows that `row`
-    /// makes of states.
+    /// Creates the motion from the steps and gains of a filter; `row` converts its states to rows.
     pub(super) fn new<D: Dim>(
         times: &[f64],
         steps: &[Step<D>],
@@ -143,6 +146,7 @@ impl<R> SmoothedMotion<R> {
                 .iter()
                 .map(|value| value / noise)
                 .collect(),
+            components: innovations.components,
             disturbances: Disturbances::default(),
             free: innovations.free,
         }
@@ -150,7 +154,7 @@ impl<R> SmoothedMotion<R> {
 }
 
 impl SmoothedMotion {
-    /// A motion whose states are sums of data with independent errors.
+    /// Creates a motion whose states are weighted sums of data with independent errors.
     pub(super) fn by_weights(
         times: &[f64],
         rows: Vec<DataWeights<[f64; 3]>>,
@@ -182,23 +186,25 @@ impl SmoothedMotion {
                 noise,
             },
             innovations: Vec::new(),
+            components: Vec::new(),
             disturbances: Disturbances::default(),
             free: 0,
         }
     }
 }
 
-/// What a [`ModelSmoother`](super::ModelSmoother) finds beside the motion.
+/// Methods for the parameters that a [`ModelSmoother`](super::ModelSmoother) estimates together
+/// with the motion.
 impl SmoothedMotion<Vec<f64>> {
-    /// The motion with what tells its disturbances.
+    /// Returns the motion with the estimated disturbances added.
     pub(super) fn with_disturbances(mut self, disturbances: Disturbances) -> Self {
         self.disturbances = disturbances;
         self
     }
 
-    /// The motion with frictions that were found with it. Their errors come to those of the
-    /// states: each is independent, and a series tells what one deviation of it does at each
-    /// time, for data of a standard deviation of 1.
+    /// Returns the motion with the estimated friction added, whose errors contribute to those of
+    /// the states. Each series in `errors` is the change of the states caused by one standard
+    /// deviation of an independent error, for data of standard deviation 1.
     pub(super) fn with_frictions(
         mut self,
         frictions: Vec<f64>,
@@ -219,24 +225,24 @@ impl SmoothedMotion<Vec<f64>> {
         self
     }
 
-    /// Coefficients (N m s) of the friction that the equations of motion lack, one for each
-    /// kind that the smoother looks for: zero where the data do not ask for one.
+    /// Returns the friction coefficients (N m s) that the equations of motion lack, one for each
+    /// kind that the smoother searched for; zero if the data do not require it.
     pub fn frictions(&self) -> &[f64] {
         &self.frictions
     }
 
-    /// Changes of the state from the time before to each that the equations of motion do not
-    /// make, nor the frictions that were found: those of the likeliest disturbances.
+    /// Returns the most likely disturbances: changes of the state, from the previous time to each
+    /// time, that neither the equations of motion nor the fitted friction explain.
     pub fn disturbances(&self) -> Vec<Vec<f64>> {
         let innovations = self.innovations.iter();
         let innovations: Vec<f64> = innovations.map(|value| self.noise * value).collect();
         self.disturbances.likeliest(&innovations)
     }
 
-    /// Draws the [`disturbances`](Self::disturbances) that another measurement would feign of a
-    /// motion that has none, with its densities as they were found. What the found ones do, and
-    /// these do not, is no noise: a test of the equations. `normal` gives independent numbers of
-    /// a standard normal distribution.
+    /// Draws random [`disturbances`](Self::disturbances) as another measurement of a motion without
+    /// any disturbance would give them, with the estimated densities. Effects of the actual
+    /// disturbances that these do not show are not noise; this is a test of the equations. `normal`
+    /// returns independent numbers of a standard normal distribution.
     pub fn spurious_disturbances(&self, mut normal: impl FnMut() -> f64) -> Vec<Vec<f64>> {
         self.disturbances.spurious(|| self.noise * normal())
     }
@@ -253,43 +259,67 @@ impl<R: AsRef<[f64]> + AsMut<[f64]> + Clone> SmoothedMotion<R> {
         self.noise
     }
 
-    /// Spectral densities of what disturbs the motion: the jerk of a
-    /// [`KinematicSmoother`](super::KinematicSmoother) in the data's unit squared over s⁵,
-    /// the generalized forces of a [`ModelSmoother`](super::ModelSmoother) in (N m)² s, one
-    /// for each of its patterns; none for [`LocalPolynomials`](super::LocalPolynomials).
+    /// Returns the spectral densities of the disturbances: the jerk of a
+    /// [`KinematicSmoother`](super::KinematicSmoother) in the data's unit squared over s⁵, the
+    /// generalized forces of a [`ModelSmoother`](super::ModelSmoother) in (N m)² s, one for each of
+    /// its patterns; none for [`LocalPolynomials`](super::LocalPolynomials).
     pub fn densities(&self) -> &[f64] {
         &self.densities
     }
 
-    /// Returns the state at a time, NaN beyond the last.
+    /// Returns the state at the time with this index; NaN after the last time.
     pub fn mean(&self, index: usize) -> R {
         self.means.get(index).unwrap_or(&self.beyond).clone()
     }
 
-    /// Returns the standard deviations of its numbers, NaN beyond the last time.
+    /// Returns the standard deviations of the state at the time with this index; NaN after the last
+    /// time.
     pub fn deviation(&self, index: usize) -> R {
         self.deviations.get(index).unwrap_or(&self.beyond).clone()
     }
 
-    /// Difference of each datum from the one that those before it led to expect, in standard
-    /// deviations of that: white and normal if noise and motion are as assumed. The first, as many
-    /// as a state has numbers, say nothing. [`LocalPolynomials`](super::LocalPolynomials) expect nothing: none.
+    /// Returns the innovations: the difference between each datum and its prediction from the data
+    /// before, in units of its standard deviation. They are white and normally distributed if the
+    /// assumptions on noise and motion hold. The first ones, as many as a state has numbers, carry
+    /// no information. Empty for [`LocalPolynomials`](super::LocalPolynomials).
     pub fn innovations(&self) -> &[f64] {
         &self.innovations
     }
 
-    /// Returns the correlation of successive innovations in its standard deviations for
-    /// white ones: beyond some 3 the motion is not what the smoother takes it for, and its
-    /// errors are larger than it says. NaN without innovations.
+    /// Returns the correlation of successive innovations of the same angle, in units of the
+    /// standard deviation that it has for white innovations. NaN if there are no innovations.
+    ///
+    /// Innovations of a [`ModelSmoother`](super::ModelSmoother) are white by theory if its
+    /// equations hold and the noise is white: above about 3, one of these assumptions is wrong, and
+    /// errors are larger than the smoother reports. Innovations of a
+    /// [`KinematicSmoother`](super::KinematicSmoother) may exceed this value although its errors
+    /// are correct, because the jerk of a real motion is not white.
     pub fn whiteness(&self) -> f64 {
-        let used = self.innovations.get(self.free..).unwrap_or_default();
-        let square: f64 = used.iter().map(|x| x * x).sum();
-        let product: f64 = used.windows(2).map(|pair| pair[0] * pair[1]).sum();
-        (used.len() as f64).sqrt() * product / square
+        let used = self
+            .innovations
+            .iter()
+            .zip(&self.components)
+            .skip(self.free);
+        // Errors of different angles at one time may be correlated, as those of two links with a
+        // common dot are.
+        let mut before: Vec<Option<f64>> = Vec::new();
+        let (mut square, mut product, mut pairs) = (0.0, 0.0, 0_u32);
+        for (&own, &component) in used {
+            if before.len() <= component {
+                before.resize(component + 1, None);
+            }
+            if let Some(last) = before[component].replace(own) {
+                product += last * own;
+                square += own * own;
+                pairs += 1;
+            }
+        }
+        f64::from(pairs).sqrt() * product / square
     }
 
-    /// Draws a motion, each as likely as the data make it: the state at every time. `normal`
-    /// gives independent numbers of a standard normal distribution.
+    /// Draws a random motion that agrees with the data, in proportion to its probability; returns
+    /// the state at every time. `normal` returns independent numbers of a standard normal
+    /// distribution.
     pub fn draw(&self, mut normal: impl FnMut() -> f64) -> Vec<R> {
         let mut motion = self.means.clone();
         match &self.errors {

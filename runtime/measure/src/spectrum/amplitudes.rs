@@ -4,8 +4,7 @@ use super::error::{SpectrumError, check};
 use super::transform::{at_frequency, at_grid};
 use super::window::Window;
 
-/// Options of a spectrum. By default the mean is removed and the window is that
-/// of Hann.
+/// Options of a spectrum. The default subtracts the mean and uses Hann's window.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct SpectrumOptions {
     /// True if the mean of the samples is subtracted first.
@@ -23,11 +22,11 @@ impl Default for SpectrumOptions {
     }
 }
 
-/// Amplitudes at ascending frequencies: a sine of amplitude a whose frequency is among them
-/// shows as a peak of height a, in the units of the series.
+/// Amplitudes at ascending frequencies. A sine of amplitude a at one of these frequencies gives a
+/// peak of height a, in the units of the series.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Spectrum {
-    /// Frequencies in hertz, ascending.
+    /// Frequencies, Hz, ascending.
     pub frequencies_hz: Vec<f64>,
     /// Amplitude at each frequency, in the units of the series.
     pub amplitudes: Vec<f64>,
@@ -62,14 +61,14 @@ impl Spectrum {
         })
     }
 
-    /// Returns the spectrum at the given frequencies, in hertz, ascending. N·F steps
-    /// for N samples and F frequencies.
+    /// Returns the spectrum at the given frequencies, Hz, ascending. The effort is N·F steps for N
+    /// samples and F frequencies.
     ///
     /// # Errors
     ///
-    /// [`SpectrumError`] for fewer than two samples, a sample that is not
-    /// finite, a sample rate that is not finite and positive, frequencies that
-    /// do not ascend or lie outside 0 to half the sample rate.
+    /// [`SpectrumError`] for fewer than two samples, a sample that is not finite, a sample rate
+    /// that is not finite and positive, or frequencies that do not ascend or are outside 0 to half
+    /// the sample rate.
     ///
     /// # Examples
     ///
@@ -110,8 +109,8 @@ impl Spectrum {
     }
 }
 
-/// A real oscillation is split between +f and −f, which are one at zero and at half the
-/// sample rate.
+/// Returns the factor that converts the magnitude of a Fourier sum to an amplitude. A real
+/// oscillation is divided between +f and −f, which coincide at zero and at half the sample rate.
 fn share(is_one: bool) -> f64 {
     if is_one { 1.0 } else { 2.0 }
 }
@@ -139,7 +138,7 @@ fn check_frequencies(rate: f64, frequencies: &[f64]) -> Result<(), SpectrumError
 }
 
 impl SpectrumOptions {
-    /// Returns the samples times their weights, and the sum of the weights.
+    /// Returns the samples multiplied by their weights, and the sum of the weights.
     fn prepare(&self, samples: &[f64]) -> (Vec<f64>, f64) {
         let mean = if self.remove_mean {
             samples.iter().sum::<f64>() / samples.len() as f64

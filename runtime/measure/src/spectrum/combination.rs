@@ -1,19 +1,19 @@
-//! Names of lines.
+//! Combination tones (sums of multiples of fundamental frequencies), by which spectral lines are
+//! named.
 
-/// A sum of whole multiples of fundamental frequencies, as 2f_+ − f_−.
+/// A sum of integer multiples of fundamental frequencies, such as 2f_+ − f_−.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct CombinationTone {
-    /// Multiple of each fundamental frequency.
+    /// The integer multiple of each fundamental frequency.
     pub multiples: Vec<i32>,
 }
 
 impl CombinationTone {
-    /// Returns the combination of lowest order, and of that order the nearest, whose
-    /// frequency is within `tolerance_hz` of a line's; none up to `order` is.
+    /// Returns the combination of lowest order, and of that order the nearest, whose frequency is
+    /// within `tolerance_hz` (Hz) of a line's; `None` if there is none up to `order`.
     ///
-    /// The more orders are allowed, the more combinations lie in any interval: a tolerance
-    /// of several errors of the line and of the combination of fundamentals tells names
-    /// from chance.
+    /// The more orders are allowed, the more combinations lie in any interval. Use a tolerance of
+    /// several errors of the line and of the combination, so that few agree by chance.
     ///
     /// # Examples
     ///
@@ -48,18 +48,18 @@ impl CombinationTone {
         })
     }
 
-    /// Returns the order: the sum of the multiples' sizes.
+    /// Returns the order: the sum of the absolute values of the multiples.
     pub fn order(&self) -> u32 {
         self.multiples.iter().map(|n| n.unsigned_abs()).sum()
     }
 
-    /// Returns the combination's frequency, in hertz.
+    /// Returns the frequency of the combination, Hz.
     pub fn frequency_hz(&self, fundamentals_hz: &[f64]) -> f64 {
         let terms = self.multiples.iter().zip(fundamentals_hz);
         terms.map(|(n, f)| f64::from(*n) * f).sum()
     }
 
-    /// Writes the combination with names of the fundamentals, positive terms first.
+    /// Returns the combination as text with these names of the fundamentals, positive terms first.
     pub fn named(&self, names: &[&str]) -> String {
         let terms = || self.multiples.iter().zip(names);
         let positive = terms().filter(|(n, _)| **n > 0);
@@ -81,7 +81,7 @@ impl CombinationTone {
     }
 }
 
-/// Calls `visit` with all multiples from `at` on whose sizes sum to `order`.
+/// Calls `visit` with all multiples, from the index `at` on, whose absolute values sum to `order`.
 fn each(multiples: &mut [i32], at: usize, order: i32, visit: &mut impl FnMut(&[i32])) {
     if at + 1 >= multiples.len() {
         for last in [order, -order] {

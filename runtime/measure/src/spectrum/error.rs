@@ -1,29 +1,29 @@
-//! Why a series has no spectrum.
+//! Errors in the computation of spectra.
 
 use thiserror::Error;
 
-/// Why a series has no spectrum.
+/// Reason why a spectrum of a series could not be computed.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum SpectrumError {
-    /// Fewer than two samples.
+    /// There are fewer than two samples.
     #[error("a spectrum needs at least two samples, but got {found}")]
     TooFewSamples {
         /// Number of samples given.
         found: usize,
     },
     /// A sample is infinite or NaN.
-    #[error("sample {index} is {value}")]
+    #[error("sample {index} is {value}: samples must be finite")]
     Sample {
         /// Index of the sample.
         index: usize,
-        /// The sample.
+        /// Value of the sample.
         value: f64,
     },
     /// The sample rate is not finite and positive.
     #[error("the sample rate is {value} Hz: it must be finite and positive")]
     SampleRate {
-        /// The rate given, in hertz.
+        /// The sample rate given, Hz.
         value: f64,
     },
     /// A frequency is NaN or outside 0 to half the sample rate.
@@ -33,13 +33,13 @@ pub enum SpectrumError {
     Frequency {
         /// Index of the frequency.
         index: usize,
-        /// The frequency, in hertz.
+        /// Value of the frequency, Hz.
         value: f64,
-        /// Half the sample rate, in hertz.
+        /// Half the sample rate, Hz.
         nyquist: f64,
     },
-    /// An option of a search for lines that is not possible.
-    #[error("the {name} of {value} is not possible")]
+    /// An option of a search for lines is outside its range.
+    #[error("the {name} is {value}, outside of its accepted range")]
     Option {
         /// Name of the option.
         name: &'static str,
@@ -49,16 +49,17 @@ pub enum SpectrumError {
     /// The frequencies do not ascend.
     #[error("frequency {index} is {value} Hz, after {previous} Hz: frequencies must ascend")]
     FrequencyOrder {
-        /// Index of the offending frequency.
+        /// Index of the frequency that is not larger than the one before.
         index: usize,
-        /// The frequency before it, in hertz.
+        /// The frequency before it, Hz.
         previous: f64,
-        /// The offending frequency, in hertz.
+        /// Value of that frequency, Hz.
         value: f64,
     },
 }
 
-/// Refuses samples of which there is no spectrum.
+/// Checks that there are enough samples, that they are finite, and that the rate is finite and
+/// positive.
 pub(super) fn check(samples: &[f64], rate: f64) -> Result<(), SpectrumError> {
     if samples.len() < 2 {
         return Err(SpectrumError::TooFewSamples {

@@ -1,28 +1,29 @@
-//! Spectra of one stretch of time after the other.
+//! Spectra of successive time intervals of a record.
 
 use super::error::{SpectrumError, check};
 
-/// Stretches of a record, for motions whose frequencies change: those that friction damps.
+/// Division of a record into time intervals, for motions whose frequencies change, such as damped
+/// ones.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Passages {
-    /// Length of each, s.
+    /// Length of a stretch, s.
     pub span: f64,
-    /// Time from the start of one to that of the next, s.
+    /// Time between the starts of two successive intervals, in s.
     pub step: f64,
 }
 
-/// Lines found in one stretch.
+/// The spectrum or the lines of one time interval.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Passage<T> {
-    /// Time from the first sample of the record to the middle of the stretch, s.
+    /// Time from the first sample of the record to the middle of the interval, in s.
     pub middle: f64,
-    /// Spectrum or lines of the stretch.
+    /// Spectrum or lines of the interval.
     pub found: T,
 }
 
 impl Passages {
-    /// Returns what `find` finds in each stretch of samples taken at `sample_rate_hz`: its
-    /// spectrum, for a spectrogram, or its lines.
+    /// Applies `find` to each interval of samples taken at `sample_rate_hz` (Hz), and returns the
+    /// results: spectra, for a spectrogram, or lines.
     ///
     /// # Errors
     ///
@@ -60,7 +61,8 @@ impl Passages {
         let length = (self.span * rate).round() as usize;
         let mut passages = Vec::new();
         for index in 0.. {
-            // Rounded each by itself: steps that are no whole samples do not add up.
+            // Rounds each start separately, so that errors of steps that are no whole number of
+            // samples do not accumulate.
             let start = (index as f64 * self.step * rate).round() as usize;
             let Some(part) = samples.get(start..start.saturating_add(length)) else {
                 break;

@@ -1,11 +1,11 @@
-//! Fourier sums Σ x_n exp(−2πi f n).
+//! Fourier sums Σ x_n exp(−2πi f n) of samples x_n.
 
 use core::f64::consts::TAU;
 
 use realfft::RealFftPlanner;
 
-/// Magnitudes of the sums at f = k/L, k = 0 … ⌊L/2⌋, for samples that zeros make L ≥ their
-/// number long.
+/// Returns the magnitudes of the Fourier sums at f = k/L, k = 0 … ⌊L/2⌋, for samples that are
+/// extended by zeros to the length L.
 pub(super) fn at_grid(samples: &[f64], length: usize) -> Vec<f64> {
     let transform = RealFftPlanner::<f64>::new().plan_fft_forward(length);
     let mut input = transform.make_input_vec();
@@ -15,12 +15,13 @@ pub(super) fn at_grid(samples: &[f64], length: usize) -> Vec<f64> {
     let mut output = transform.make_output_vec();
     match transform.process(&mut input, &mut output) {
         Ok(()) => output.iter().map(|sum| sum.re.hypot(sum.im)).collect(),
-        // Both buffers are as long as the transform has made them.
+        // Cannot fail: both buffers have the length that the transform asks for.
         Err(_) => Vec::new(),
     }
 }
 
-/// Magnitude of the sum at f cycles a sample, summed directly.
+/// Returns the magnitude of the Fourier sum at a frequency in cycles per sample, by direct
+/// summation.
 pub(super) fn at_frequency(samples: &[f64], frequency: f64) -> f64 {
     // The phase advances by rotation, which is cheap but lets rounding grow;
     // each block starts from an exact phase, so that it does not.

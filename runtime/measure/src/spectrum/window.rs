@@ -1,18 +1,18 @@
-//! Weights of samples.
+//! Window functions: weights of the samples of a record.
 
 use core::f64::consts::PI;
 
 /// Weights of the samples of a record, symmetric about its middle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub enum Window {
-    /// All samples alike: the narrowest peaks, with wide side lobes.
+    /// Equal weights: the narrowest peaks, with large side lobes.
     Rectangular,
-    /// sin²(π (n + ½)/N): peaks twice as wide, side lobes that fall off as the third power
-    /// of the distance.
+    /// sin²(π (n + ½)/N): peaks twice as wide, with side lobes that decay as the third power of the
+    /// distance.
     #[default]
     Hann,
-    /// Hann's window to a power p, as J. Laskar weights series: peaks p + 1 times as wide as the
-    /// narrowest, side lobes that fall off as the power 2p + 1 of the distance.
+    /// Hann's window to a power p, after J. Laskar: peaks p + 1 times as wide as the narrowest
+    /// ones, with side lobes that decay as the power 2p + 1 of the distance.
     HannPower(u8),
 }
 
@@ -25,7 +25,7 @@ impl Window {
         }
     }
 
-    /// Weights of `count` samples.
+    /// Returns the weights of `count` samples.
     pub(super) fn weights(self, count: usize) -> Vec<f64> {
         let power = i32::from(self.power());
         let weight = |index: usize| {

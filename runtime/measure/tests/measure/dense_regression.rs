@@ -210,7 +210,7 @@ fn polynomials_know_their_noise() {
             noise: None,
         };
         let places = [0, 20, 49];
-        let (mut noise, mut errors, mut told) = (0.0, [[0.0; 3]; 3], [[0.0; 3]; 3]);
+        let (mut noise, mut errors, mut reported) = (0.0, [[0.0; 3]; 3], [[0.0; 3]; 3]);
         for seed in 1..=draws {
             let mut normal = Normal(seed * 0x9e37_79b9);
             let data: Vec<_> = times
@@ -223,13 +223,16 @@ fn polynomials_know_their_noise() {
                 let (mean, deviation) = (found.mean(place), found.deviation(place));
                 for (part, truth) in truth(times[place]).into_iter().enumerate() {
                     errors[number][part] += (mean[part] - truth).powi(2);
-                    told[number][part] += deviation[part].powi(2);
+                    reported[number][part] += deviation[part].powi(2);
                 }
             }
         }
         assert!((noise - 1.0).abs() < 0.04, "{window} {noise}");
-        for (error, told) in errors.iter().flatten().zip(told.iter().flatten()) {
-            assert!((told / error - 1.0).abs() < 0.2, "{window} {told} {error}");
+        for (error, reported) in errors.iter().flatten().zip(reported.iter().flatten()) {
+            assert!(
+                (reported / error - 1.0).abs() < 0.2,
+                "{window} {reported} {error}"
+            );
         }
     }
 }

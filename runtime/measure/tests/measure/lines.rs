@@ -238,7 +238,10 @@ fn passages_follow_a_line() {
         step: 1.0,
     };
     let error = error.each(&samples, 50.0, lines).unwrap_err();
-    assert_eq!(error.to_string(), "the span of NaN is not possible");
+    assert_eq!(
+        error.to_string(),
+        "the span is NaN, outside of its accepted range"
+    );
 }
 
 #[test]
@@ -254,5 +257,8 @@ fn rest_and_noise_alone_have_no_lines() {
         ..search
     };
     let error = search.find(&noise, 10.0).unwrap_err().to_string();
-    assert_eq!(error, "the smallest amplitude of -1 is not possible");
+    assert_eq!(
+        error,
+        "the smallest amplitude is -1, outside of its accepted range"
+    );
 }

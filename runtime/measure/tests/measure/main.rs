@@ -2,9 +2,11 @@
 //! motions, parameters against those of simulated and measured pendulums.
 
 mod dense_regression;
+mod drift;
 mod equations;
 mod identification;
 mod lacking_friction;
+mod leaps;
 mod lines;
 #[path = "../../../tests/runtime/normal.rs"]
 mod normal;

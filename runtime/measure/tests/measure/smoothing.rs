@@ -260,7 +260,7 @@ fn impossible_data_are_refused() {
     let infinite = [Some(1.0), Some(2.0), Some(f64::INFINITY), Some(1.0), None];
     assert_eq!(
         smooth(&times, &infinite),
-        "datum 2 is inf; missing ones are none"
+        "datum 2 is inf; write missing ones as `None`"
     );
     let back = [0.0, 0.1, 0.1, 0.3, 0.4];
     assert_eq!(

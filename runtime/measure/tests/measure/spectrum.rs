@@ -90,7 +90,10 @@ fn refusals() {
         message(&[1.0], 1.0, &[]),
         "a spectrum needs at least two samples, but got 1"
     );
-    assert_eq!(message(&[1.0, f64::NAN], 1.0, &[]), "sample 1 is NaN");
+    assert_eq!(
+        message(&[1.0, f64::NAN], 1.0, &[]),
+        "sample 1 is NaN: samples must be finite"
+    );
     assert_eq!(
         message(&samples, 0.0, &[]),
         "the sample rate is 0 Hz: it must be finite and positive"

@@ -1,5 +1,7 @@
-//! The cheapest model, method and setting that is right for what is asked of a tree.
+//! Choice of the cheapest model, method and setting that computes the requested outputs of a tree
+//! accurately enough.
 
+use branched_pendulum::integrate::Method;
 use branched_pendulum_advice::{
     Advice, AdviceError, TimeLimit, TreeOutput, TreeScene, UnknownOutput,
 };
@@ -12,9 +14,9 @@ use crate::frame::command_line::number;
 use crate::release::ReleaseArguments;
 use crate::subject::TreeArguments;
 
-/// Which model, method, tolerance or step and scalar is the cheapest that is right for a
-/// tree, on this machine? Measures all of them and says what to take, how wrong it is and
-/// what it costs, what comes next, and why what is cheaper will not do.
+/// Which model, method, tolerance or step, and number type is the cheapest that is accurate enough
+/// for a tree, on this machine? Measures all candidates and reports the one to use, its error and
+/// its cost, the runners-up, and why cheaper candidates fail.
 #[derive(Clone, Debug, Parser, PartialEq)]
 #[command(name = "branched-pendulum advise", version, verbatim_doc_comment)]
 pub struct Arguments {
@@ -22,8 +24,8 @@ pub struct Arguments {
     tree: TreeArguments,
     #[command(flatten)]
     release: ReleaseArguments,
-    /// outputs with their largest errors, with commas between: angles (rad), energy (J),
-    /// pixels (of 1000 a metre), transfer (W, into the first difference between copies)
+    /// outputs with their largest errors, separated by commas: angles (rad), energy (J),
+    /// pixels (1000 per metre), transfer (W, into the first difference between copies)
     #[arg(
         verbatim_doc_comment,
         long,
@@ -33,14 +35,14 @@ pub struct Arguments {
     )]
     // By its full path, clap takes it for one value.
     right: ::std::vec::Vec<(TreeOutput, f64)>,
-    /// time followed, s from 0.1 to 1000
+    /// duration of the motion, s from 0.1 to 1000
     #[arg(long, value_name = "S", default_value = "10", value_parser = number(0.1..=1e3, "s"))]
     duration: f64,
-    /// samples, or frames, in a second, from 0.1 to 1000
+    /// samples, or frames, per second, from 0.1 to 1000
     #[arg(long, value_name = "HZ", default_value = "10", value_parser = number(0.1..=1e3, "Hz"))]
     rate: f64,
-    /// releases, 1 to 1000, whose first angles differ by up to 0.6°: several may go at once in
-    /// the lanes of vector registers
+    /// number of releases, 1 to 1000, whose first angles differ by up to 0.6°; several may be
+    /// integrated at once in vector registers
     #[arg(
         verbatim_doc_comment,
         long,
@@ -49,7 +51,7 @@ pub struct Arguments {
         value_parser = clap::value_parser!(u32).range(1..=1000)
     )]
     starts: u32,
-    /// largest time that may be taken: `step:` or `sample:` and µs
+    /// largest computing time that is accepted: `step:` or `sample:` and the time in µs
     #[arg(long, value_name = "LIMIT", value_parser = limit)]
     limit: Option<TimeLimit>,
 }
@@ -60,9 +62,12 @@ impl crate::frame::Arguments for Arguments {
 
 fn outputs(text: &str) -> Result<Vec<(TreeOutput, f64)>, String> {
     let one = |part: &str| {
-        let (name, tolerance) = part
-            .split_once(':')
-            .ok_or_else(|| format!("`{part}` is no output and its largest error: `angles:1e-6`"))?;
+        let (name, tolerance) = part.split_once(':').ok_or_else(|| {
+            format!(
+                "`{part}` is not an output with its largest error: write it as in \
+                `angles:1e-6`"
+            )
+        })?;
         let output = name
             .parse()
             .map_err(|error: UnknownOutput| error.to_string())?;
@@ -85,13 +90,13 @@ fn limit(text: &str) -> Result<TimeLimit, String> {
 /// Largest deviation of releases, rad.
 const DEVIATION: f64 = 0.01;
 
-/// Asks for advice and writes all that was measured.
+/// Measures the candidates and writes the recommendation and all measurements.
 ///
 /// # Errors
-/// [`Failure`]; [`Failure::Tree`] for the transfer of a tree without copies.
+/// [`Failure`]; [`Failure::Tree`] if the energy transfer is requested of a tree without copies.
 pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
     let subject = arguments.tree.read()?;
-    subject.record(job);
+    subject.record(job)?;
     let start = arguments.release.state(&subject)?;
     let count = (arguments.duration * arguments.rate).round().max(1.0) as u32;
     let sample = |index| arguments.duration * f64::from(index) / f64::from(count);
@@ -109,13 +114,17 @@ pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
     };
     let progress = job.progress(1);
     progress.begin(&subject.name);
-    let advice = progress
-        .ticking(|| scene.advise(&subject.tree))
-        .map_err(|error| match error {
-            AdviceError::Tree(source) => Failure::tree(&subject.name, source),
-            error => Failure::advice(error),
-        })?;
+    let mut advice =
+        progress
+            .ticking(|| scene.advise(&subject.tree))
+            .map_err(|error| match error {
+                AdviceError::Tree(source) => Failure::tree(&subject.name, source),
+                error => Failure::advice(error),
+            })?;
     progress.next();
+    let best = advice.best_full();
+    let command = best.map(|(run, method)| command(arguments, method, run.setting));
+    advice.to_write = command.into_iter().collect();
     job.print(&format!("{}\n\n{advice}", subject.name))?;
     if let Some(chosen) = advice.chosen() {
         job.report("choice", advice.describe(chosen));
@@ -128,12 +137,64 @@ pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
     })
 }
 
+/// Returns the command line that integrates the motion by this method and setting.
+fn command(arguments: &Arguments, method: Method, setting: f64) -> String {
+    let Arguments {
+        tree,
+        release,
+        duration,
+        rate,
+        ..
+    } = arguments;
+    let mut words = vec!["branched-pendulum simulate".to_owned()];
+    let mut option = |name: &str, value: String| words.push(format!("--{name} {}", quoted(&value)));
+    option("tree", tree.tree.clone());
+    if let Some(file) = &tree.parameters {
+        option("parameters", file.display().to_string());
+    }
+    let set = tree.set.iter().flatten();
+    let set: Vec<String> = set.map(|(name, value)| format!("{name}={value}")).collect();
+    if !set.is_empty() {
+        option("set", set.join(","));
+    }
+    option("start", release.start.clone());
+    if release.rates != "0" {
+        option("rates", release.rates.clone());
+    }
+    option("duration", duration.to_string());
+    option("rate", rate.max(1.0).to_string());
+    option("method", method.to_string());
+    option("tolerance", format!("{setting:e}"));
+    words.join(" ")
+}
+
+/// Quotes a word for the shell if necessary.
+fn quoted(word: &str) -> String {
+    let is_plain = |c: char| c.is_ascii_alphanumeric() || "_-+./=,:".contains(c);
+    match word.chars().all(is_plain) && !word.is_empty() {
+        true => word.to_owned(),
+        false => format!("'{}'", word.replace('\'', "'\\''")),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use branched_pendulum_advice::AdviceError;
 
     use crate::Failure;
     use crate::frame::messages;
+
+    #[test]
+    fn words_of_a_command_are_quoted_for_a_shell() {
+        for (word, expected) in [
+            ("my tree.txt", "'my tree.txt'"),
+            ("child=10,parent=-3.5", "child=10,parent=-3.5"),
+            ("it's", r"'it'\''s'"),
+            ("", "''"),
+        ] {
+            assert_eq!(super::quoted(word), expected);
+        }
+    }
 
     #[test]
     fn every_cause_is_told_once() {

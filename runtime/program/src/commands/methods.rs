@@ -1,4 +1,4 @@
-//! Error against time for every method, on the tree that is asked about.
+//! Error against computing time for every method, on a given tree.
 
 use branched_pendulum::prelude::*;
 use branched_pendulum::scalar::Double;
@@ -13,9 +13,9 @@ use crate::frame::{Charts, Job};
 use crate::release::ReleaseArguments;
 use crate::subject::{Subject, TreeArguments};
 
-/// Which method is the cheapest for an error on this tree? Runs every method at many
-/// tolerances or steps against a reference in numbers of twice the digits, and draws
-/// the error at the end against time and against evaluations.
+/// Which integration method is the cheapest on this tree for a given error? Runs every method with
+/// many tolerances or steps, compares it with a reference of twice the digits, and draws the error
+/// at the end against computing time and against the number of evaluations.
 #[derive(Clone, Debug, Parser, PartialEq)]
 #[command(name = "branched-pendulum methods", version, verbatim_doc_comment)]
 pub struct Arguments {
@@ -23,7 +23,7 @@ pub struct Arguments {
     tree: TreeArguments,
     #[command(flatten)]
     release: ReleaseArguments,
-    /// time followed, s from 0.1 to 1000
+    /// duration of the motion, s from 0.1 to 1000
     #[arg(long, value_name = "S", default_value = "10", value_parser = number(0.1..=1000.0, "s"))]
     duration: f64,
 }
@@ -36,13 +36,13 @@ impl crate::frame::Arguments for Arguments {
 /// Errors in the table.
 const LEVELS: [f64; 5] = [1e-3, 1e-6, 1e-9, 1e-11, 1e-13];
 
-/// Measures all methods, and prints, writes and draws what was found.
+/// Measures all methods, and prints, writes and draws the results.
 ///
 /// # Errors
-/// [`Failure`]; [`Failure::Lacking`] for a chaotic motion of which no digit is left.
+/// [`Failure`]; [`Failure::Lacking`] if the motion is so chaotic that no digit can be computed.
 pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
     let subject = arguments.tree.read()?;
-    subject.record(job);
+    subject.record(job)?;
     let start = arguments.release.state(&subject)?;
     let progress = job.progress(2);
     progress.begin("reference in twice the digits");
@@ -53,19 +53,19 @@ pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
     if uncertainty > LEVELS[0] {
         return Err(Failure::Lacking {
             what: format!(
-                "the end of this motion is known to {uncertainty:.0e} rad alone, even in twice the digits: \
-                 take a shorter `--duration`"
+                "the end of this motion is known only to {uncertainty:.0e} rad, even with twice \
+                 the digits: use a shorter `--duration`"
             ),
         });
     }
     progress.next();
-    let told = |method: Method, part| {
-        progress.tell(method.title());
+    let reported = |method: Method, part| {
+        progress.show_message(method.title());
         progress.within(1, part);
     };
     let system = AbsoluteAngles(&subject.tree);
     let methods = WorkPrecision::METHODS;
-    let measured = WorkPrecision::measure(&system, &start, end, &known.values, &methods, told);
+    let measured = WorkPrecision::measure(&system, &start, end, &known.values, &methods, reported);
     let table = measured.table(&LEVELS);
     job.print(&format!(
         "{}: time (µs) to an error at the end, rad or rad/s; * the shortest\n\

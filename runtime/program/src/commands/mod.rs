@@ -1,15 +1,19 @@
-//! What the command does, a module for each subcommand.
+//! Subcommands of the command-line program, one module each.
 
 pub mod advise;
 pub mod analyse;
 pub mod cascade;
 pub mod describe;
+mod differences;
 pub mod growth;
 pub mod identify;
 pub mod map;
 pub mod methods;
 pub mod modes;
+mod plane;
+mod predicted;
 pub mod simulate;
+pub mod theory;
 pub mod transfer;
 
 use std::ffi::OsString;
@@ -24,11 +28,11 @@ use crate::frame::{self, Arguments, Job};
 /// Name of the command.
 const NAME: &str = "branched-pendulum";
 
-/// The subcommand that no tree is asked for, and its argument.
+/// Name of the subcommand that prints shell completions and needs no tree.
 const COMPLETIONS: &str = "completions";
 const SHELL: &str = "shell";
 
-/// A subcommand: its options, and what runs it with the words of its command line.
+/// A subcommand: its options, and the function that runs it with the words of the command line.
 struct Subcommand {
     name: &'static str,
     command: Command,
@@ -53,6 +57,7 @@ fn subcommands() -> Vec<Subcommand> {
         subcommand("modes", modes::run),
         subcommand("growth", growth::run),
         subcommand("map", map::run),
+        subcommand("theory", theory::run),
         subcommand("transfer", transfer::run),
         subcommand("cascade", cascade::run),
         subcommand("analyse", analyse::run),
@@ -62,7 +67,8 @@ fn subcommands() -> Vec<Subcommand> {
     ]
 }
 
-/// Runs the subcommand that the words name, the command's own name being the first of them.
+/// Runs the subcommand given in the words of the command line, of which the first is the program's
+/// name.
 pub fn main(words: impl IntoIterator<Item = OsString>) -> ExitCode {
     let words: Vec<OsString> = words.into_iter().collect();
     let all = subcommands();
@@ -88,7 +94,7 @@ pub fn main(words: impl IntoIterator<Item = OsString>) -> ExitCode {
     }
 }
 
-/// The whole command, for its help and for completions.
+/// Returns the whole command, for its help text and for completions.
 fn command(all: Vec<Subcommand>) -> Command {
     let completions = Command::new(COMPLETIONS)
         .about("Writes completions of the command for a shell")

@@ -1,49 +1,59 @@
-//! From a table to angles of the links of a tree, counted from gravity while they move.
+//! Conversion of a table to angles of a tree's links, measured from the direction of gravity while
+//! they move.
 
 use std::borrow::Cow;
 use std::f64::consts::{PI, TAU};
 use std::path::Path;
 
 use branched_pendulum_data::{
-    AngleColumns, AngleZero, Basis, Clock, Finding, LinkMarkers, Markers, Recording, Repeated,
-    Sample, Table, TableOptions, read_angles,
+    AngleColumns, AngleZero, Basis, Clock, Finding, LinkMarkers, Markers, ReadError, Recording,
+    Repeated, Sample, Table, TableOptions, read_angles,
 };
 use branched_pendulum_measure::identification::AngleRecord;
 
+use super::stretches;
 use super::{Counts, MeasuredFile, Zero};
 use crate::Failure;
 use crate::subject::Subject;
 
-/// Angles of rest that differ by less are one place, rad: what a search for it leaves.
+/// Difference (rad) below which equilibrium angles count as equal; a search leaves smaller
+/// differences.
 const SAME_PLACE: f64 = 1e-6;
 
-/// The links of a tree whose angles are read.
+/// Links of a tree whose angles are read from a file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MeasuredLinks {
     names: Vec<String>,
     parents: Vec<Option<usize>>,
-    /// Angles at which the tree hangs at rest, rad; of no use without a stretch at rest.
+    /// Angles at which the tree hangs at rest, in rad; unused unless the file has a part at rest.
     rest: Vec<f64>,
-    /// Offsets that are known, rad: none where none of them is.
+    /// Known offsets of the links' angles, in rad; `None` if no offset is known.
     offsets: Option<Vec<f64>>,
 }
 
-/// Angles of links, as a file tells them.
+/// Angles of links that were read from a file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MeasuredAngles {
-    /// The angles from gravity, while the tree moves.
+    /// Angles measured from the direction of gravity, while the tree moves.
     pub recording: Recording,
-    /// What the links show where they are at 0, rad, which is taken from the angles.
+    /// Measured angles (rad) of links whose true angle is 0; they are subtracted.
     pub offsets: Vec<f64>,
-    /// The time until which the links were held, where they were, s.
+    /// Time (s) at which the links were released, if they were held before.
     pub release: Option<f64>,
 }
 
+impl MeasuredAngles {
+    /// If long gaps divide the record, keeps the part with the most rows.
+    pub fn keep_longest_stretch(&mut self) {
+        stretches::keep_longest(&mut self.recording);
+    }
+}
+
 impl MeasuredLinks {
-    /// Returns the links of a tree with the offsets of those that are known.
+    /// Returns the links of a tree, with the known offsets of their angles.
     ///
     /// # Errors
-    /// [`Failure::Lacking`] where the place of rest is asked for by `--rest` and is not found.
+    /// [`Failure::Lacking`] if `--rest` needs the equilibrium of the tree and it is not found.
     pub fn new(
         subject: &Subject,
         offsets: &[(String, f64)],
@@ -53,10 +63,10 @@ impl MeasuredLinks {
         let zeros = vec![0.0; names.len()];
         let rest = match file.rest {
             None => zeros,
-            Some(_) => subject.tree.equilibrium(&zeros).map_err(|error| {
+            Some(_) => subject.rest().map_err(|error| {
                 let what = format!(
-                    "no place was found where `{}` rests ({error}): give what links show there by \
-                     --tilt in place of --rest",
+                    "found no rest position of `{}` ({error}): give the measured angles of the \
+                     resting links by --tilt instead of --rest",
                     subject.name
                 );
                 Failure::Lacking { what }
@@ -76,7 +86,7 @@ impl MeasuredLinks {
 }
 
 impl MeasuredLinks {
-    /// Returns true if the tree of the other hangs at rest at other angles.
+    /// Returns true if the tree of `other` hangs at rest at other angles.
     pub fn rests_elsewhere(&self, other: &Self) -> bool {
         let pairs = self.rest.iter().zip(&other.rest);
         pairs.into_iter().any(|(a, b)| (a - b).abs() > SAME_PLACE)
@@ -84,15 +94,27 @@ impl MeasuredLinks {
 }
 
 impl MeasuredFile {
-    /// Reads `file` with what is known of it.
+    /// Reads angles from `file`, interpreted by these options.
     ///
     /// # Errors
     /// [`Failure::Reading`], [`Failure::Links`] or [`Failure::Lacking`].
     pub fn read(&self, file: &Path, links: &MeasuredLinks) -> Result<MeasuredAngles, Failure> {
-        self.angles(&Table::read(file, &TableOptions::default())?, links)
+        self.angles(&self.table(file)?, links)
     }
 
-    /// Takes the angles of links out of a table.
+    /// Reads the table in `file`.
+    ///
+    /// # Errors
+    /// Errors of [`Table::read`].
+    pub fn table(&self, file: &Path) -> Result<Table, ReadError> {
+        let options = TableOptions {
+            sheet: self.sheet.clone(),
+            ..TableOptions::default()
+        };
+        Table::read(file, &options)
+    }
+
+    /// Extracts the angles of the links from a table.
     ///
     /// # Errors
     /// Errors of [`read`](Self::read).
@@ -107,7 +129,10 @@ impl MeasuredFile {
             });
         }
         if let Some(tilt) = self.tilt {
-            turn_back(&mut recording, &vec![tilt.to_radians(); found]);
+            // From columns it was subtracted before the vertical was detected.
+            if self.takes_dots(table) {
+                subtract_offsets(&mut recording, &vec![tilt.to_radians(); found]);
+            }
             recording.findings.push(Finding {
                 basis: Basis::Given,
                 text: format!("angles less {tilt}°, at which a link hangs at rest"),
@@ -115,10 +140,13 @@ impl MeasuredFile {
         }
         let offsets = self.offsets(&recording, links)?;
         if let Some((offsets, finding)) = &offsets {
-            turn_back(&mut recording, offsets);
+            subtract_offsets(&mut recording, offsets);
             recording.findings.push(finding.clone());
         }
         let release = self.cut(&mut recording, links)?;
+        stretches::leave_fragments_out(&mut recording);
+        recording.check_motion(table.path())?;
+        stretches::check_memory(table.path(), &recording)?;
         Ok(MeasuredAngles {
             recording,
             offsets: offsets.map_or_else(|| vec![0.0; found], |(offsets, _)| offsets),
@@ -129,6 +157,9 @@ impl MeasuredFile {
     fn recording(&self, table: &Table, parents: &[Option<usize>]) -> Result<Recording, Failure> {
         let clock = self.clock();
         let mut table = Cow::Borrowed(table);
+        if let Some(number) = self.recording {
+            table = Cow::Owned(table.into_owned().recording(&clock, number)?);
+        }
         if let Some(counts) = self.drop_repeated {
             let counts = match counts {
                 Counts::First => Repeated::First,
@@ -148,6 +179,7 @@ impl MeasuredFile {
                 Zero::Down => AngleZero::Down,
                 Zero::Up => AngleZero::Up,
             }),
+            tilt: self.tilt.unwrap_or(0.0).to_radians(),
             relative_to: relative_to.unwrap_or_default(),
             ..AngleColumns::default()
         };
@@ -172,14 +204,14 @@ impl MeasuredFile {
         }
     }
 
-    /// What links show at 0, by a stretch at rest or as it is known, with words about it; none where
-    /// nothing is known.
+    /// Returns the measured angles of links whose true angle is 0, from a part of the record at
+    /// rest or as given, with a statement about them; `None` if nothing is known.
     fn offsets(
         &self,
         recording: &Recording,
         links: &MeasuredLinks,
     ) -> Result<Option<(Vec<f64>, Finding)>, Failure> {
-        let told = |offsets: &[f64]| {
+        let reported = |offsets: &[f64]| {
             let each = links.names.iter().zip(offsets);
             let each = each.map(|(name, offset)| format!("`{name}` {:.3}°", offset.to_degrees()));
             each.collect::<Vec<_>>().join(", ")
@@ -187,7 +219,7 @@ impl MeasuredFile {
         let (Some([from, to]), known) = (self.rest, &links.offsets) else {
             let known = links.offsets.clone();
             return Ok(known.map(|offsets| {
-                let text = format!("angles less the offsets of links: {}", told(&offsets));
+                let text = format!("angles less the offsets of links: {}", reported(&offsets));
                 let basis = Basis::Given;
                 (offsets, Finding { basis, text })
             }));
@@ -203,8 +235,8 @@ impl MeasuredFile {
         let rest = record(recording, links).between(from, to.next_up());
         let means = rest.means_at_rest().map_err(|unrest| Failure::Lacking {
             what: format!(
-                "--rest {from}:{to} is no stretch at rest, {unrest}: name one in which all links \
-                 hang still"
+                "during --rest {from}:{to} the links do not rest, {unrest}: give a time interval \
+                 in which all links hang still"
             ),
         })?;
         let offsets = means.iter().zip(&links.rest);
@@ -213,14 +245,14 @@ impl MeasuredFile {
         let offsets: Vec<f64> = offsets.collect();
         let text = format!(
             "offsets of links by their rest from {from} s to {to} s: {}",
-            told(&offsets)
+            reported(&offsets)
         );
         let basis = Basis::Detected;
         Ok(Some((offsets, Finding { basis, text })))
     }
 
-    /// Leaves what comes before and after the motion out. Returns the time until which the links
-    /// were held, where that was found.
+    /// Removes the parts of the record before and after the motion. Returns the time of release, if
+    /// it was found.
     fn cut(
         &self,
         recording: &mut Recording,
@@ -249,7 +281,8 @@ impl MeasuredFile {
         match (recording.times.is_empty(), all) {
             (true, [Some(first), Some(last)]) => Err(Failure::Lacking {
                 what: format!(
-                    "--from and --to leave nothing: the file has angles from {first} s to {last} s"
+                    "no angles lie between --from and --to: the file has angles from {first} s \
+                     to {last} s"
                 ),
             }),
             _ => Ok(release),
@@ -257,10 +290,10 @@ impl MeasuredFile {
     }
 }
 
-/// Deviation of angles beside each other, rad: all are equally good.
+/// Assumed standard deviation of neighbouring angles, rad; it is the same for all.
 const DEVIATION: f64 = 1e-3;
 
-/// Angles as they are looked at for rest.
+/// Converts angles to a record in which parts at rest are searched for.
 fn record(recording: &Recording, links: &MeasuredLinks) -> AngleRecord {
     let rows = 0..recording.times.len();
     let named = links.names.iter().zip(&recording.links);
@@ -273,8 +306,8 @@ fn record(recording: &Recording, links: &MeasuredLinks) -> AngleRecord {
     )
 }
 
-/// Counts the angles of each link from what it shows where it is at 0 (rad).
-fn turn_back(recording: &mut Recording, offsets: &[f64]) {
+/// Subtracts from the angles of each link the angle (rad) that it shows when its true angle is 0.
+fn subtract_offsets(recording: &mut Recording, offsets: &[f64]) {
     for (link, offset) in recording.links.iter_mut().zip(offsets) {
         for sample in &mut link.samples {
             match sample {
@@ -287,7 +320,7 @@ fn turn_back(recording: &mut Recording, offsets: &[f64]) {
     }
 }
 
-/// Begins and ends a recording with a time at which something was measured.
+/// Removes times without any measured angle from both ends of a recording.
 fn trim(recording: &mut Recording) {
     let is_measured = |row: &usize| {
         recording
@@ -301,7 +334,7 @@ fn trim(recording: &mut Recording) {
     rows(recording, [first, last]);
 }
 
-/// Keeps the times from one on to another.
+/// Keeps the times between two given ones.
 fn keep(recording: &mut Recording, [from, to]: [f64; 2]) {
     let first = recording.times.partition_point(|time| *time < from);
     let last = recording.times.partition_point(|time| *time <= to);

@@ -1,6 +1,7 @@
-//! Files of measured angles, as programs that analyse them take them.
+//! Files of measured angles, in the form that programs which analyse them read.
 
 mod angles;
+mod stretches;
 
 use std::path::PathBuf;
 
@@ -10,65 +11,80 @@ use clap::{Args, ValueEnum};
 pub use self::angles::{MeasuredAngles, MeasuredLinks};
 use crate::frame::command_line::{number, parts};
 
-/// A file of angles or of dots against time, and what is known of it.
+/// A file of angles or dots against time, and the options that say how to read it.
 #[derive(Args, Clone, Debug, Default, PartialEq)]
 pub struct MeasuredFile {
-    /// file of measurements; without it they are simulated
+    /// file of measurements; without it, measurements are simulated
     #[arg(value_name = "FILE")]
     pub file: Option<PathBuf>,
-    /// columns of the angles of the links, parent first; all that may be angles without it
+    /// sheet of a spreadsheet; the first one with numbers without it
+    #[arg(long, value_name = "NAME")]
+    pub sheet: Option<String>,
+    /// columns of the angles of the links, parent first; by default all columns that can be angles
     #[arg(long, value_name = "A,B,...", value_parser = names, default_value = "")]
     // By its full path, clap takes it for one value.
     pub columns: ::std::vec::Vec<String>,
-    /// unit of angles whose columns do not name it
-    #[arg(long, value_name = "UNIT", value_parser = unit())]
+    /// unit of angles whose columns do not name it: rad, deg, mrad, arcmin, arcsec, gon, turn, or
+    /// counts:N for an encoder with N counts per turn
+    #[arg(verbatim_doc_comment, long, value_name = "UNIT", value_parser = unit)]
     pub unit: Option<AngleUnit>,
-    /// direction of angle 0; detected without it
+    /// direction of angle 0; detected by default
     #[arg(long, value_enum, value_name = "WAY")]
     pub zero: Option<Zero>,
-    /// dots of the links, UPPER:LOWER for each, in place of angles; a place that does not move
-    /// is `origin` or X,Y, as in `origin:a,a:b`
+    /// dots of the links, UPPER:LOWER for each, instead of angles; a point that does not move is
+    /// `origin` or X,Y, as in `origin:a,a:b`
     #[arg(verbatim_doc_comment, long, value_name = "U:L,...", value_parser = pairs, default_value = "")]
     pub dots: ::std::vec::Vec<(String, String)>,
-    /// place of the pivot, X,Y or `origin`, where no dot is at it: the dots of the file are the
-    /// ends of a chain of links from it, in their order
+    /// position of the pivot, X,Y or `origin`, if no dot is at it: the dots of the file are then
+    /// the ends of a chain of links from it, in their order
     #[arg(verbatim_doc_comment, long, value_name = "X,Y", value_parser = place, allow_hyphen_values = true)]
     pub pivot: Option<[f64; 2]>,
-    /// y of dots grows downwards, as rows of a picture
+    /// y of dots increases downwards, as rows of a picture do
     #[arg(long)]
     pub y_down: bool,
     /// y of dots grows upwards
     #[arg(long, conflicts_with = "y_down")]
     pub y_up: bool,
-    /// angles of all links but the first are counted from the links on which they hang
+    /// angles of all links but the first are relative to the link from which they hang
     #[arg(long)]
     pub relative: bool,
-    /// the angle that a link shows which hangs at rest, degrees from -180 to 180: camera or
+    /// the measured angle of a link that hangs at rest, degrees from -180 to 180, if camera or
     /// encoder are not plumb
     #[arg(verbatim_doc_comment, long, value_name = "DEG", value_parser = number(-180.0..=180.0, "°"), allow_hyphen_values = true)]
     pub tilt: Option<f64>,
-    /// a stretch of time in which all links hang at rest, s: what they show there is their direction
-    /// of gravity, whatever camera, dots or encoders are turned by
+    /// a span of time in which all links hang at rest, s: the angles measured there define the
+    /// direction of gravity, also if camera, dots or encoders are rotated
     #[arg(verbatim_doc_comment, long, value_name = "FROM:TO", value_parser = stretch, allow_hyphen_values = true)]
     pub rest: Option<[f64; 2]>,
-    /// time at which the motion begins, s; where links are held at first, it is found without it
+    /// time at which the motion begins, s; by default it is detected if links are held at first
     #[arg(long, value_name = "S", value_parser = number(-1e9..=1e9, "s"), allow_hyphen_values = true)]
     pub from: Option<f64>,
-    /// time at which it ends, s
+    /// time at which the motion ends, s
     #[arg(long, value_name = "S", value_parser = number(-1e9..=1e9, "s"), allow_hyphen_values = true)]
     pub to: Option<f64>,
-    /// stretches of time that are left out, s
+    /// spans of time that are left out, s
     #[arg(long, value_name = "FROM:TO,...", value_parser = stretches, default_value = "", allow_hyphen_values = true)]
     pub leave_out: ::std::vec::Vec<[f64; 2]>,
-    /// column of the times; found by its name without it
-    #[arg(long, value_name = "COLUMN", conflicts_with = "frame_rate")]
+    /// name of the column of times, followed by its unit if the header does not contain it, as in
+    /// `stamp [ns]`; by default the column is recognised by its name
+    #[arg(
+        verbatim_doc_comment,
+        long,
+        value_name = "COLUMN",
+        conflicts_with = "frame_rate"
+    )]
     pub time: Option<String>,
-    /// pictures a second, 1 to 1e5; needed for files that number them
+    /// pictures per second, 1 to 1e5; required for files that contain picture numbers instead of
+    /// times
     #[arg(long, value_name = "HZ", value_parser = number(1.0..=1e5, "Hz"))]
     pub frame_rate: Option<f64>,
-    /// drops rows that repeat a time, but for the one that counts: the first without a value
+    /// drops rows that repeat a time, except the one that counts: by default the first
     #[arg(long, value_enum, value_name = "COUNTS", num_args = 0..=1, default_missing_value = "first")]
     pub drop_repeated: Option<Counts>,
+    /// number of the recording to use, from 1, if the file contains several and the time starts
+    /// again in each
+    #[arg(long, value_name = "N")]
+    pub recording: Option<usize>,
 }
 
 /// Direction of angle 0.
@@ -80,7 +96,7 @@ pub enum Zero {
     Up,
 }
 
-/// The row that counts of those with one time.
+/// Which of several rows with the same time is used.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Counts {
     /// The first.
@@ -90,8 +106,9 @@ pub enum Counts {
 }
 
 impl MeasuredFile {
-    /// Names of the options that say something of the file.
-    pub const OPTIONS: [&str; 16] = [
+    /// Names of the options that describe the file.
+    pub const OPTIONS: [&str; 18] = [
+        "sheet",
         "columns",
         "unit",
         "zero",
@@ -108,16 +125,24 @@ impl MeasuredFile {
         "time",
         "frame_rate",
         "drop_repeated",
+        "recording",
     ];
 
-    /// Returns true where angles follow from the dots of a table.
+    /// Returns true if angles are computed from the dots of a table.
     pub fn is_of_dots(&self, table: &Table) -> bool {
         let of_columns =
             !self.columns.is_empty() || self.unit.is_some() || self.zero.is_some() || self.relative;
         !of_columns && !table.tracks().is_empty()
     }
 
-    /// The dots of the links, UPPER and LOWER, named or as they stand in a table.
+    /// Returns true if angles are computed from the dots of a table, or from columns that are named
+    /// as dots.
+    fn takes_dots(&self, table: &Table) -> bool {
+        let of_dots = !self.dots.is_empty() || self.pivot.is_some() || self.y_down || self.y_up;
+        of_dots || self.is_of_dots(table)
+    }
+
+    /// Returns the dots of the links, UPPER and LOWER, as named or in the order of a table.
     pub fn dots_of(&self, table: &Table) -> Vec<(String, String)> {
         if !self.dots.is_empty() {
             return self.dots.clone();
@@ -140,10 +165,11 @@ impl MeasuredFile {
         }
     }
 
-    /// Refuses options of angles beside those of dots, and a motion that ends before it begins.
+    /// Checks the options: options for angles cannot be combined with options for dots, and the
+    /// motion must not end before it begins.
     ///
     /// # Errors
-    /// A sentence about the options.
+    /// A message about the options.
     pub fn check(&self) -> Result<(), String> {
         let of_columns = [
             ("--columns", !self.columns.is_empty()),
@@ -169,15 +195,15 @@ impl MeasuredFile {
         }
         if self.pivot.is_some() && !self.dots.is_empty() {
             return Err(
-                "--pivot beside --dots: name its place among them, as in `0,0:a,a:b`".into(),
+                "--pivot cannot be combined with --dots: give the pivot's position in --dots, as \
+                 in `0,0:a,a:b`"
+                    .into(),
             );
         }
         if let (Some(from), Some(to)) = (self.from, self.to)
             && from >= to
         {
-            return Err(format!(
-                "--from {from} is no earlier than --to {to}: nothing is left of the motion"
-            ));
+            return Err(format!("--from {from} must be earlier than --to {to}"));
         }
         Ok(())
     }
@@ -187,17 +213,18 @@ fn names(text: &str) -> Result<Vec<String>, String> {
     Ok(parts(text).map(str::to_owned).collect())
 }
 
-/// Reads the short name of a unit of angles.
-fn unit() -> impl clap::builder::TypedValueParser<Value = AngleUnit> {
-    use clap::builder::TypedValueParser;
-    let words = AngleUnit::ALL.map(|(word, _)| word);
-    clap::builder::PossibleValuesParser::new(words).map(|word| {
-        let found = AngleUnit::ALL.iter().find(|(own, _)| *own == word);
-        found.map_or(AngleUnit::Radians, |(_, unit)| *unit)
+/// Parses the short name of a unit of angles.
+fn unit(text: &str) -> Result<AngleUnit, String> {
+    AngleUnit::named(text).ok_or_else(|| {
+        let words = AngleUnit::ALL.map(|(word, _)| word);
+        format!(
+            "a unit is {}, or counts:N of an encoder, N a turn",
+            words.join(", ")
+        )
     })
 }
 
-/// Reads a place, X,Y or `origin`.
+/// Parses a position, X,Y or `origin`.
 fn place(text: &str) -> Result<[f64; 2], String> {
     let number = |part: &str| part.trim().parse().ok().filter(|x: &f64| x.is_finite());
     let place = match text.split_once(',') {
@@ -221,7 +248,7 @@ fn stretches(text: &str) -> Result<Vec<[f64; 2]>, String> {
     parts(text).map(stretch).collect()
 }
 
-/// Reads pairs of dots; the comma of a place X,Y parts no pairs.
+/// Parses pairs of dots; the comma within a position X,Y does not separate pairs.
 fn pairs(text: &str) -> Result<Vec<(String, String)>, String> {
     let mut before = String::new();
     let mut pairs = Vec::new();
@@ -238,7 +265,7 @@ fn pairs(text: &str) -> Result<Vec<(String, String)>, String> {
     }
     match before.is_empty() {
         true => Ok(pairs),
-        false => Err("two names with a colon between for each link: UPPER:LOWER".to_owned()),
+        false => Err("write two names separated by a colon for each link: UPPER:LOWER".to_owned()),
     }
 }
 

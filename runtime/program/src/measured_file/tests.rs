@@ -31,6 +31,9 @@ fn options_of_files_are_read() {
         read("a.csv --drop-repeated").unwrap().drop_repeated,
         Some(super::Counts::First)
     );
+    let counts = read("a.csv --unit counts:4096 --recording 2").unwrap();
+    assert_eq!(counts.unit, AngleUnit::named("counts:4096"));
+    assert_eq!(counts.recording, Some(2));
     let dots = read("a.csv --dots 0.5,-1:m1,m1:m2,origin:m3").unwrap().dots;
     assert_eq!(
         dots,
@@ -49,15 +52,23 @@ fn options_of_files_are_read() {
     assert!(read.relative);
 }
 
-/// An option that cannot apply is refused, never dropped.
+/// Checks that an option that cannot be applied is rejected, and not ignored.
 #[test]
 fn options_that_cannot_apply_are_refused() {
     for (line, message) in [
-        ("a.csv --dots top,mid", "two names with a colon"),
-        ("a.csv --dots top:mid,end", "two names with a colon"),
+        (
+            "a.csv --dots top,mid",
+            "write two names separated by a colon",
+        ),
+        (
+            "a.csv --dots top:mid,end",
+            "write two names separated by a colon",
+        ),
         ("a.csv --pivot 1", "X,Y, or `origin`"),
         ("a.csv --pivot nan,0", "X,Y, or `origin`"),
-        ("a.csv --unit turns", "possible values"),
+        ("a.csv --unit turns", "a unit is rad, deg, "),
+        ("a.csv --unit counts:0", "or counts:N of an encoder"),
+        ("a.csv --unit counts:4096.5", "or counts:N of an encoder"),
         ("a.csv --drop-repeated mean", "possible values"),
         ("a.csv --time t --frame-rate 60", "cannot be used with"),
         (
@@ -69,7 +80,10 @@ fn options_that_cannot_apply_are_refused() {
             "angles come from one of them",
         ),
         ("a.csv --unit deg --y-down", "angles come from one of them"),
-        ("a.csv --pivot 0,0 --dots a:b", "name its place among them"),
+        (
+            "a.csv --pivot 0,0 --dots a:b",
+            "give the pivot's position in --dots",
+        ),
         (
             "a.csv --relative --dots a:b",
             "angles come from one of them",
@@ -85,7 +99,7 @@ fn options_that_cannot_apply_are_refused() {
     }
 }
 
-/// Every option of files is named among them.
+/// Checks that all options that describe a file are in the list of their names.
 #[test]
 fn options_of_files_have_names() {
     let command = Line::command();

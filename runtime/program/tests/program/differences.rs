@@ -98,8 +98,8 @@ fn normal_modes_go_through_the_plane() {
     assert!(text.contains("Mode f_1: 0.8732 Hz when small"), "{text}");
     assert!(text.contains("Mode f_2: 1.5826 Hz when small"), "{text}");
     let chart = folder.read("results/map.svg");
-    for told in ["nonlinear normal mode", "marked"] {
-        assert!(chart.contains(told), "{told}");
+    for reported in ["nonlinear normal mode", "marked"] {
+        assert!(chart.contains(reported), "{reported}");
     }
     has_charts(&folder, "map");
 }
@@ -176,4 +176,68 @@ fn trees_with_springs_have_no_bound_of_energy() {
     assert!(!text.contains("less energy"), "{text}");
     let chart = folder.read("results/map.svg");
     assert!(!chart.contains("inverted"));
+}
+
+/// The blade at 30° of the parent, by theory alone and next to simulation.
+#[test]
+fn tongues_are_predicted() {
+    let folder = Folder::new("theory");
+    let words = ["theory", "--x", "child=0:40:0.5", "--at", "parent=30"];
+    let text = folder.answer(&words);
+    assert!(text.contains("f_1 + f_2 = 2 d_1"), "{text}");
+    let line = text.lines().find(|line| line.contains("1/s at")).unwrap();
+    let numbers: Vec<f64> = line
+        .split([' ', '°', ',', ':'])
+        .filter_map(|part| part.parse().ok())
+        .collect();
+    let [from, _, to, _, rate, ..] = numbers[..] else {
+        panic!("{line}")
+    };
+    assert!(
+        (from - 13.5).abs() < 0.6 && (to - 23.5).abs() < 0.6,
+        "{line}"
+    );
+    assert!((rate - 0.0713).abs() < 0.03 * 0.0713, "{line}");
+}
+
+/// A parameter on the axis: the mass of the children for which the release grows.
+#[test]
+fn a_tongue_over_a_parameter() {
+    let folder = Folder::new("theory-parameter");
+    let tree = folder.file("heavy.txt", HEAVY);
+    let words = [
+        "theory", "--tree", &tree, "--set", "ratio=1", "--start", "child=19",
+    ];
+    let text = folder.answer(
+        &[
+            &words[..],
+            &["--x", "ratio=0.8:1.2:0.1", "--at", "parent=30"],
+        ]
+        .concat(),
+    );
+    assert!(text.contains("parent = 30°"), "{text}");
+    assert!(text.contains("by f_1 + f_2 = 2 d_1"), "{text}");
+}
+
+/// The tongues on one line for each mass of the children: with the mass of the tree, those of it.
+#[test]
+fn tongues_for_each_value_of_a_parameter() {
+    let folder = Folder::new("theory-varied");
+    let tree = folder.file("heavy.txt", HEAVY);
+    let words = ["theory", "--tree", &tree, "--set", "ratio=1"];
+    let plane = ["--x", "child=0:40:1", "--at", "parent=30"];
+    let own = folder.answer(&[&words[..], &plane].concat());
+    let own = own.lines().find(|line| line.contains("1/s at")).unwrap();
+    let varied = ["--vary", "ratio=0.5:1.5:0.5"];
+    let all = Folder::new("theory-of-each");
+    let text = all.answer(&[&words[..], &plane, &varied].concat());
+    let lines: Vec<&str> = text.lines().collect();
+    let of = |value: &str| {
+        let place = lines
+            .iter()
+            .position(|line| line.trim() == format!("ratio = {value}"));
+        lines[place.unwrap() + 1]
+    };
+    assert_eq!(of("1"), own, "{text}");
+    assert!(of("0.5") != own && of("1.5") != own, "{text}");
 }

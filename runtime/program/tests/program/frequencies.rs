@@ -220,7 +220,7 @@ fn frequencies_that_make_no_sense_are_refused() {
         (
             "--frequency=-0.88:0.005",
             2,
-            "`-0.88:0.005` is no frequency with its standard error",
+            "`-0.88:0.005` is not a frequency with its standard error",
         ),
         ("--frequency 0.88:0", 2, "write `0.88:0.005`"),
         ("--frequency 0.88:-0.01", 2, "write `0.88:0.005`"),
@@ -235,24 +235,24 @@ fn frequencies_that_make_no_sense_are_refused() {
         (
             "--frequency 0.88:0.005@1 --noise 1e-3",
             2,
-            "--noise is of a record of the motion, and --frequency stands in place of one: name the \
-             file of a record, or leave out --noise",
+            "--noise applies to a record of the motion, but --frequency replaces the record: name \
+             the file of a record, or leave out --noise",
         ),
         (
             "--frequency 0.88:0.005@1 --fit 3",
             2,
-            "--fit is of a record",
+            "--fit applies to a record",
         ),
         (
             "--frequency 0.88:0.005@1 --columns a,b",
             2,
-            "--columns is of a file of measurements, and none is given",
+            "--columns applies to a file of measurements, but no file is given",
         ),
     ] {
         let (ended, printed) = identify(&output, &format!("{inertias} {words}"));
         assert_eq!(ended, Some(code), "{words}: {printed}");
         // Lines are broken in the messages of the command line.
-        let told = printed.split_whitespace().collect::<Vec<_>>().join(" ");
-        assert!(told.contains(message), "{words}: {printed}");
+        let reported = printed.split_whitespace().collect::<Vec<_>>().join(" ");
+        assert!(reported.contains(message), "{words}: {printed}");
     }
 }

@@ -130,31 +130,28 @@ fn what_was_not_fitted_is_predicted_and_energies_follow_from_parameters() {
     let printed = folder.answer(&[&analyse[..], &set, &["--rest", "0:0.95"]].concat());
     assert!(printed.starts_with("The energy budget closes"), "{printed}");
 
-    for (options, told) in [
+    for (options, reported) in [
         (
             &["--rest", "0:0.95", "--parameters", &kept][..],
             "leave out --rest, or the offsets in that file",
         ),
         (
             &["--rest", "0.5:1.5"],
-            "name one in which all links hang still",
+            "give a time interval in which all links hang still",
         ),
         // One picture too long.
-        (
-            &["--rest", "0:1"],
-            "`upper` moves there by 8.7e-2 rad (rms)",
-        ),
-        (&["--rest", "20:30"], "`upper` has 0 angles there"),
+        (&["--rest", "0:1"], "`upper` moves by 8.7e-2 rad (rms)"),
+        (&["--rest", "20:30"], "`upper` has 0 angles in that time"),
         (&["--to", "2.5"], ""),
     ] {
         let done = folder.run(&[&analyse[..], &set, options].concat());
         let error = String::from_utf8(done.stderr).unwrap();
         assert_eq!(
             done.status.success(),
-            told.is_empty(),
+            reported.is_empty(),
             "{options:?} {error}"
         );
-        assert!(error.contains(told), "{options:?} {error}");
+        assert!(error.contains(reported), "{options:?} {error}");
     }
 }
 
@@ -201,7 +198,7 @@ fn films_of_the_tutorials_close_their_budgets() {
     let known = [
         "--tree", &tree, "--set", known, "--from", "3", "--draws", "20",
     ];
-    for (name, upper, told, options) in [
+    for (name, upper, reported, options) in [
         ("tracker.txt", "origin", "an export of Tracker", &[][..]),
         (
             "deeplabcut.csv",
@@ -220,7 +217,7 @@ fn films_of_the_tutorials_close_their_budgets() {
             "{name}: {printed}"
         );
         assert!(
-            printed.contains(told) && printed.contains("by their rest"),
+            printed.contains(reported) && printed.contains("by their rest"),
             "{printed}"
         );
         // Without the stretch at rest the camera is taken for plumb.

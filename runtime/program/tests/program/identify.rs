@@ -129,9 +129,9 @@ fn a_place_of_rest_that_is_looked_for_is_refused() {
     let rest = format!("--tree {} --rest 0:0.1 --unknown", tree.display());
     let (code, printed) = identify(&file, &format!("{rest} aside=0.02,f"));
     assert_eq!(code, Some(1), "{printed}");
-    let told =
-        "where the tree rests depends on `aside`, which is looked for: set it by `--set aside=";
-    assert!(printed.contains(told), "{printed}");
+    let reported = "the rest position of the tree depends on the unknown parameter `aside`: set it by \
+                `--set aside=";
+    assert!(printed.contains(reported), "{printed}");
     // Friction moves no place of rest.
     let (_, printed) = identify(&file, &format!("{rest} f --set aside=0.02"));
     assert!(!printed.contains("depends on"), "{printed}");
@@ -145,8 +145,8 @@ fn what_is_not_known_or_not_there_is_refused() {
         (
             format!("--tree {tree}"),
             1,
-            "nothing is known: give its value by `--set upper_length=VALUE`, or one from which it \
-             is searched by `--unknown upper_length=GUESS`",
+            "has no value: give its value by `--set upper_length=VALUE`, or a starting value for the \
+             search by `--unknown upper_length=GUESS`",
         ),
         (
             format!("--tree {tree} --unknown lower_mass=0.1"),
@@ -166,18 +166,18 @@ fn what_is_not_known_or_not_there_is_refused() {
         (
             "--set com_1=0.1 --unknown com_1".to_owned(),
             1,
-            "`com_1` is known by `--set` and unknown by `--unknown`",
+            "`com_1` is given both as known (`--set`) and as unknown (`--unknown`)",
         ),
         (
             "--tree y".to_owned(),
             1,
-            "nothing of the tree `y` is to be found",
+            "the tree `y` has no unknown parameter",
         ),
         ("--tree no-such-tree".to_owned(), 1, "there is no tree"),
         (
             "--set gravity=9.81".to_owned(),
             1,
-            "angles of 3 links where the pendulum has 2",
+            "angles of 3 links, but the pendulum has 2",
         ),
         (
             "--columns upper --dots a:b".to_owned(),

@@ -2,6 +2,7 @@
 
 mod answers;
 mod cascade;
+mod describe;
 mod differences;
 mod flips;
 mod frequencies;
@@ -10,8 +11,10 @@ mod identify;
 mod measured;
 #[cfg(unix)]
 mod processes;
+mod records;
 mod refusals;
 mod repeated;
+mod rest;
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
@@ -44,7 +47,7 @@ stem: rod(mass = 0.4, length = 0.5, spring = 40) [
     arm: rod(mass = 0.1, length = 0.35, spring = stiffness) * 2
 ]";
 
-/// Three arms that are no copies of each other, with dry friction.
+/// Three arms that are not copies of each other, with dry friction.
 const UNEQUAL: &str = "gravity = 9.80665,
 body: rod(mass = 0.3, length = 0.3, friction(viscous = 1e-4, coulomb = 2e-3, width = 0.05)) [
     one: rod(mass = 0.1, length = 0.2, friction(coulomb = 1e-3, width = 0.05)),

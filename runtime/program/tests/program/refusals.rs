@@ -41,11 +41,11 @@ fn mistakes_are_named_with_their_place() {
     assert!(text.contains("no value for `l`"), "{text}");
     let text = refusal(&["describe", "--tree", &chain, "--set", "g=9.8,l=-1"], 1);
     assert!(text.contains("must be finite and positive"), "{text}");
-    for (words, code, told) in [
+    for (words, code, reported) in [
         (
             &["describe", "--tree", "nowhere.txt"][..],
             1,
-            "there is no tree `nowhere.txt`: neither a shipped one (paper, apparatus, double-pendulum, \
+            "there is no tree `nowhere.txt`: it is neither a shipped tree (paper, apparatus, double-pendulum, \
              chain, triple, y, branch, coupled, cascade) nor",
         ),
         (
@@ -63,24 +63,24 @@ fn mistakes_are_named_with_their_place() {
             2,
             "must be from 0.01 to 100000 s",
         ),
-        (&["simulate", "--set", "friction"], 2, "is no `NAME=VALUE`"),
+        (&["simulate", "--set", "friction"], 2, "is not `NAME=VALUE`"),
         (
             &["growth", "--pair", "parent,child"],
             1,
-            "are no copies of each other",
+            "are not copies of each other",
         ),
-        (&["map", "--x", "child=0:10"], 2, "is no axis"),
+        (&["map", "--x", "child=0:10"], 2, "is not an axis"),
         (&["map", "--x", "mass=0:1:0.5"], 1, "is neither a link"),
         (&["map", "--link", "child"], 2, "add `--of flip`"),
-        (&["map", "--x", "child=0:10:x2"], 2, "is no axis"),
+        (&["map", "--x", "child=0:10:x2"], 2, "is not an axis"),
         (&["map", "--x", "child+mass=0:10:5"], 1, "no link `mass`"),
         (&["map", "--of", "flip", "--modes"], 2, "`--of growth`"),
-        (&["map", "--mark", "3"], 2, "is no point `X:Y`"),
+        (&["map", "--mark", "3"], 2, "is not a point `X:Y`"),
         (&["map", "--tongues", "friction=0"], 1, "on neither axis"),
         (
             &["map", "--modes", "--x", "child_1=0:9:9"],
             1,
-            "those of both axes",
+            "which are the two axes",
         ),
         (
             &["growth", "--quality", "friction=0.5"],
@@ -90,7 +90,7 @@ fn mistakes_are_named_with_their_place() {
         (
             &["growth", "--tree", "apparatus", "--quality", "viscous_1=9"],
             1,
-            "`viscous_1` is no friction that brakes",
+            "`viscous_1` is not a friction coefficient that damps",
         ),
         (
             &[
@@ -128,7 +128,7 @@ fn mistakes_are_named_with_their_place() {
         (
             &["transfer", "--start", "parent=45", "--duration", "1"],
             1,
-            "W into `d` is zero at all times: copies that start alike stay alike",
+            "W into `d` is zero at all times, because copies that start in phase stay in phase",
         ),
         (&["transfer", "--into", "e"], 1, "the tree has in_phase, d"),
         (
@@ -150,12 +150,12 @@ fn mistakes_are_named_with_their_place() {
         (
             &["simulate", "--duration", "3", "--show", "3:5"],
             2,
-            "which goes from 0 to 3 s: choose a span of that",
+            "which lasts from 0 to 3 s: choose a span within these times",
         ),
         (
             &["transfer", "--against", "amplitude", "--show", "2:5"],
             1,
-            "no chart of `--against amplitude` is over time: leave out `--show`",
+            "`--against amplitude` draws no chart against time: leave out `--show`",
         ),
         (
             &["growth", "--show", "2:5"],
@@ -169,6 +169,6 @@ fn mistakes_are_named_with_their_place() {
         ),
     ] {
         let text = refusal(words, code);
-        assert!(text.contains(told), "{words:?}: {text}");
+        assert!(text.contains(reported), "{words:?}: {text}");
     }
 }

@@ -65,6 +65,93 @@ fn a_record_repeats_the_run() {
     );
 }
 
+/// Files of a run are changed after it: its record no longer repeats it, and says why.
+#[test]
+fn a_record_of_other_input_is_refused() {
+    const ROD: &str = "gravity = 9.80665,\nrod: rod(mass = 0.2, length = 0.3, friction = c)\n";
+    let folder = Folder::new("repeated-input");
+    let rows = (0..400).map(|row| {
+        let time = f64::from(row) * 0.01;
+        format!(
+            "{time:.2},{:.6}\n",
+            0.2 * (7.0 * time).cos() * (-0.3 * time).exp()
+        )
+    });
+    let table = format!("t [s],rod [rad]\n{}", rows.collect::<String>());
+    let tree = folder.file("rod.txt", ROD);
+    let constants = folder.file("constants.json", "{\n  \"c\": 0.0003\n}\n");
+    let film = folder.file("film.csv", &table);
+    let short = ["--start", "20", "--duration", "0.2"];
+    let simulate = [
+        &["simulate", "--tree", &tree, "--parameters", &constants][..],
+        &short,
+    ]
+    .concat();
+    let describe = ["describe", "--tree", &tree, "--parameters", &constants].to_vec();
+    let analyse = [
+        "analyse",
+        &film,
+        "--tree",
+        &tree,
+        "--parameters",
+        &constants,
+    ]
+    .to_vec();
+    for (words, changed, before, after, reported) in [
+        (
+            &simulate,
+            "rod.txt",
+            ROD.to_owned(),
+            ROD.replace("0.2", "0.5"),
+            "line 2 was `rod: rod(mass = 0.2",
+        ),
+        (
+            &describe,
+            "constants.json",
+            "{\"c\": 3e-4}".to_owned(),
+            "{\"c\": 4e-4}".to_owned(),
+            "line 2 was `\"c\": 0.0003`",
+        ),
+        (
+            &analyse,
+            "film.csv",
+            table.clone(),
+            table.replace("\n0.10,", "\n0.10,1"),
+            "line 12 was `0.10,",
+        ),
+        (
+            &analyse,
+            "rod.txt",
+            ROD.to_owned(),
+            ROD.replace("9.80665", "9.81"),
+            "line 1 was `gravity = 9.80665,`",
+        ),
+    ] {
+        let _ = std::fs::remove_dir_all(folder.0.join("results"));
+        folder.file(changed, &before);
+        folder.answer(words);
+        let record = folder.0.join("results/run.json");
+        let again = folder.0.join("again");
+        let repeat = || {
+            let mut command = command(&[words[0], "--repeat", record.to_str().unwrap()]);
+            command.arg("--output").arg(&again).output().unwrap()
+        };
+        folder.file(changed, &after);
+        let refused = repeat();
+        let errors = String::from_utf8(refused.stderr).unwrap();
+        assert_eq!(refused.status.code(), Some(1), "{errors}");
+        assert!(
+            errors.contains(reported) && errors.contains(changed),
+            "{errors}"
+        );
+        assert!(errors.contains("help: restore the file"), "{errors}");
+        assert!(!again.exists());
+        folder.file(changed, &before);
+        assert!(repeat().status.success());
+        std::fs::remove_dir_all(&again).unwrap();
+    }
+}
+
 #[test]
 fn standard_input_is_a_tree() {
     let mut child = command(&["describe", "--tree", "-", "--set", "stiffness=4"])

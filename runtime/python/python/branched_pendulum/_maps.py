@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -27,7 +27,7 @@ def _links(tree: Tree, name: str) -> list[int]:
 
 def release_map(
     tree: Tree,
-    pair: Sequence[str],
+    pair: tuple[str, str] | list[str],
     axes: Mapping[str, ArrayLike],
     *,
     horizon: float = 15.0,

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Mapping, Sequence
 from os import PathLike
-from typing import Any, ClassVar, Literal, final
+from typing import ClassVar, Literal, TypedDict, final, overload
 
 import numpy as np
 import pandas as pd
@@ -12,8 +12,10 @@ from typing_extensions import disjoint_base
 from ._drawing import Picture
 from ._results import (
     Advice,
+    Equilibrium,
     Growth,
     Identification,
+    Prediction,
     Report,
     ScaleBudget,
     SectorBudget,
@@ -28,6 +30,7 @@ __all__ = [
     "FailedMotions",
     "IntegrationError",
     "Lines",
+    "NormalForm",
     "Pendulum",
     "ReadError",
     "Recording",
@@ -49,20 +52,19 @@ __all__ = [
 __version__: str
 
 _Array = NDArray[np.float64]
-# An array, or of one state a number.
-_Values = Any
-_Method = Literal[
-    "dop853",
-    "dopri5",
-    "verner98",
-    "taylor",
-    "rk4",
-    "gauss2",
-    "gauss4",
-    "gauss6",
-    "gauss8",
-    "animation",
+# The numbers of one state, or its angles.
+_One = Sequence[float]
+# States in an array. One state in an array has a float64 too, which has no type of its own here:
+# the number of axes is part of few arrays' types.
+_Many = NDArray[np.number] | Sequence[Sequence[float]] | Sequence[NDArray[np.number]]
+# A number of one state, an array of several.
+_Values = np.float64 | _Array
+# Methods that need the rates alone.
+_OfRates = Literal[
+    "dop853", "dopri5", "verner98", "rk4", "gauss2", "gauss4", "gauss6", "gauss8", "animation"
 ]
+_Named = Literal["taylor"] | _OfRates
+_Method = Literal["auto"] | _Named
 _Form = Literal[
     "exact",
     "angle order 1",
@@ -103,6 +105,8 @@ _TreeForm = Literal[
     "amplitude order 14",
     "amplitude order 15",
 ]
+# Names in a list: a str alone is a sequence of str too.
+_Names = list[str] | tuple[str, ...]
 _Event = Callable[[float, _Array], float]
 _Torques = Callable[[float, _Array], ArrayLike]
 
@@ -134,13 +138,18 @@ class Pendulum:
     @property
     def names(self) -> list[str]: ...
     def __len__(self) -> int: ...
-    def rhs(self, t: ArrayLike, y: ArrayLike) -> _Array: ...
+    def rhs(self, t: ArrayLike, y: ArrayLike, axis: int = ...) -> _Array: ...
+    @overload
+    def energy(self, y: _One) -> np.float64: ...
+    @overload
+    def energy(self, y: _Many) -> _Array: ...
+    @overload
     def energy(self, y: ArrayLike) -> _Values: ...
     def integrate(
         self,
         y0: ArrayLike,
         t: ArrayLike,
-        method: _Method = "dop853",
+        method: _Method = "auto",
         rtol: float = 1e-9,
         atol: ArrayLike | None = None,
         step: float | None = None,
@@ -150,12 +159,13 @@ class Pendulum:
         *,
         first_step: float | None = None,
         max_step: float | None = None,
+        precision: float | None = None,
     ) -> Solution: ...
     def ensemble(
         self,
         starts: ArrayLike,
         t: ArrayLike,
-        method: Literal["dop853", "dopri5", "verner98", "taylor"] = "dop853",
+        method: Literal["auto", "dop853", "dopri5", "verner98", "taylor"] = "auto",
         rtol: float = 1e-9,
         atol: ArrayLike | None = None,
         threads: int | None = None,
@@ -174,13 +184,13 @@ class Pendulum:
         intervals: int = 200,
         t0: float = 0.0,
         rtol: float = 1e-9,
-        within: Sequence[Sequence[str]] | None = None,
-        transverse: Sequence[Sequence[str]] | None = None,
+        within: Sequence[_Names] | None = None,
+        transverse: Sequence[_Names] | None = None,
     ) -> tuple[_Array, _Array]: ...
     def growth(
         self,
         starts: ArrayLike,
-        pair: Sequence[str],
+        pair: tuple[str, str] | list[str],
         horizons: ArrayLike,
         frequency: float | None = None,
         rtol: float = 1e-9,
@@ -196,6 +206,17 @@ class Pendulum:
     ) -> SmoothedMotion: ...
 
 @final
+class NormalForm:
+    @property
+    def linear_frequencies(self) -> _Array: ...
+    @property
+    def resonances(self) -> list[str]: ...
+    def actions(self, y: ArrayLike) -> _Array: ...
+    def frequencies(self, actions: ArrayLike) -> _Array: ...
+    def predict(self, y: ArrayLike) -> Prediction: ...
+    def growth_rate(self, y: ArrayLike) -> _Values: ...
+
+@final
 class Stepper:
     @property
     def t(self) -> float: ...
@@ -204,7 +225,7 @@ class Stepper:
     @property
     def report(self) -> Report: ...
     @property
-    def torques(self) -> Any: ...
+    def torques(self) -> _Torques | _Array: ...
     @torques.setter
     def torques(self, value: _Torques | ArrayLike | None, /) -> None: ...
     def set_state(self, t: float, y: ArrayLike) -> None: ...
@@ -230,8 +251,26 @@ class Tree(Pendulum):
         time: float = 0.0,
         torques: ArrayLike | None = None,
     ) -> _Array: ...
+    def inverse_dynamics(
+        self, theta: ArrayLike, omega: ArrayLike, alpha: ArrayLike, time: float = 0.0
+    ) -> _Array: ...
+    @overload
+    def kinetic_energy(self, theta: _One, omega: _One) -> np.float64: ...
+    @overload
+    def kinetic_energy(self, theta: _Many, omega: _Many) -> _Array: ...
+    @overload
     def kinetic_energy(self, theta: ArrayLike, omega: ArrayLike) -> _Values: ...
+    @overload
+    def potential_energy(self, theta: _One) -> np.float64: ...
+    @overload
+    def potential_energy(self, theta: _Many) -> _Array: ...
+    @overload
     def potential_energy(self, theta: ArrayLike) -> _Values: ...
+    @overload
+    def friction_power(self, y: _One) -> np.float64: ...
+    @overload
+    def friction_power(self, y: _Many) -> _Array: ...
+    @overload
     def friction_power(self, y: ArrayLike) -> _Values: ...
     def budget(
         self, y: ArrayLike, t: ArrayLike | None = None, torques: ArrayLike | None = None
@@ -240,16 +279,34 @@ class Tree(Pendulum):
     def mass_matrix(self, theta: ArrayLike) -> _Array: ...
     def stiffness_matrix(self, theta: ArrayLike) -> _Array: ...
     def modes(self, theta: ArrayLike | None = None) -> tuple[_Array, _Array]: ...
-    def equilibrium(self, theta: ArrayLike | None = None) -> _Array: ...
+    def equilibrium(self, theta: ArrayLike | None = None, *, stable: bool = True) -> _Array: ...
+    def equilibria(self) -> list[Equilibrium]: ...
+    def normal_form(
+        self, pair: tuple[str, str] | list[str], degree: int = 8, bound: float = 0.15
+    ) -> NormalForm: ...
     def points(
         self, theta: ArrayLike, point: Literal["pivot", "centre", "end"] = "end"
     ) -> _Array: ...
     @property
     def sectors(self) -> list[str]: ...
-    def sector_energies(self, y: ArrayLike, sector: str | None = None) -> _Values: ...
-    def transfer(
-        self, y: ArrayLike, form: _TreeForm = "exact", into: str | None = None
-    ) -> _Values: ...
+    @overload
+    def sector_energies(self, y: ArrayLike, sector: None = None) -> _Array: ...
+    @overload
+    def sector_energies(self, y: _One, sector: str) -> np.float64: ...
+    @overload
+    def sector_energies(self, y: _Many, sector: str) -> _Array: ...
+    @overload
+    def sector_energies(self, y: ArrayLike, sector: str) -> _Values: ...
+    @overload
+    def transfer(self, y: ArrayLike, form: _TreeForm = "exact", into: None = None) -> _Array: ...
+    @overload
+    def transfer(self, y: _One, form: _TreeForm = "exact", *, into: str) -> np.float64: ...
+    @overload
+    def transfer(self, y: _Many, form: _TreeForm = "exact", *, into: str) -> _Array: ...
+    @overload
+    def transfer(self, y: ArrayLike, form: _TreeForm = "exact", *, into: str) -> _Values: ...
+    @overload
+    def transfer(self, y: ArrayLike, form: _TreeForm, into: str) -> _Values: ...
     def transfer_parts(
         self, y: ArrayLike, form: _TreeForm = "exact", into: str | None = None
     ) -> _Array: ...
@@ -261,6 +318,11 @@ class Tree(Pendulum):
     ) -> SectorBudget: ...
     @property
     def observables(self) -> list[str]: ...
+    @overload
+    def observable(self, name: str, y: _One) -> np.float64: ...
+    @overload
+    def observable(self, name: str, y: _Many) -> _Array: ...
+    @overload
     def observable(self, name: str, y: ArrayLike) -> _Values: ...
     def observable_rate(self, name: str, y: ArrayLike, t: float = 0.0) -> _Array: ...
     def advise(
@@ -276,18 +338,18 @@ class Tree(Pendulum):
         self,
         y0: ArrayLike,
         t: tuple[float, float],
-        methods: Sequence[_Method] | None = None,
+        methods: list[_Named] | tuple[_Named, ...] | None = None,
     ) -> WorkPrecision: ...
     def identify(
         self,
         t: ArrayLike | None = None,
         theta: ArrayLike | None = None,
-        unknown: Sequence[str] | Mapping[str, float] | None = None,
+        unknown: _Names | Mapping[str, float] | None = None,
         *,
         frequencies: Sequence[tuple[float, float] | tuple[float, float, int]] = ...,
         until: float | None = None,
         offsets: bool = True,
-        nonnegative: Sequence[str] = ...,
+        nonnegative: _Names = ...,
         window: float = 1.0,
     ) -> Identification: ...
     def stepper(
@@ -296,9 +358,7 @@ class Tree(Pendulum):
         t: float = 0.0,
         *,
         torques: _Torques | ArrayLike | None = None,
-        method: Literal[
-            "dop853", "dopri5", "verner98", "rk4", "gauss2", "gauss4", "gauss6", "gauss8", "animation"
-        ] = "dop853",
+        method: Literal["auto"] | _OfRates = "auto",
         rtol: float = 1e-9,
         atol: ArrayLike | None = None,
         step: float | None = None,
@@ -313,7 +373,17 @@ class BranchedDouble(Pendulum):
     FORMS: ClassVar[list[_Form]]
     def __new__(cls) -> BranchedDouble: ...
     def canonical_variables(self, y: ArrayLike) -> _Array: ...
+    @overload
+    def antiphase_energy(self, y: _One) -> np.float64: ...
+    @overload
+    def antiphase_energy(self, y: _Many) -> _Array: ...
+    @overload
     def antiphase_energy(self, y: ArrayLike) -> _Values: ...
+    @overload
+    def transfer(self, y: _One, form: _Form = "exact") -> np.float64: ...
+    @overload
+    def transfer(self, y: _Many, form: _Form = "exact") -> _Array: ...
+    @overload
     def transfer(self, y: ArrayLike, form: _Form = "exact") -> _Values: ...
     def transfer_parts(self, y: ArrayLike, form: _Form = "exact") -> _Array: ...
     def __eq__(self, other: object, /) -> bool: ...
@@ -345,9 +415,9 @@ class Recording:
 def read(
     path: str | PathLike[str],
     *,
-    columns: Sequence[str] | None = None,
-    dots: Sequence[Sequence[str]] | None = None,
-    unit: Literal["rad", "deg", "mrad", "arcmin", "arcsec", "gon", "turn"] | None = None,
+    columns: _Names | None = None,
+    dots: Sequence[_Names] | None = None,
+    unit: Literal["rad", "deg", "mrad", "arcmin", "arcsec", "gon", "turn"] | str | None = None,
     zero: Literal["down", "up"] | None = None,
     relative_to: Sequence[int | None] | None = None,
     mirrored: bool = False,
@@ -361,6 +431,8 @@ def read(
     decimal: Literal[".", ","] | None = None,
     pivot: Literal["origin"] | tuple[float, float] | None = None,
     drop_repeated: Literal["first", "last"] | None = None,
+    recording: int | None = None,
+    sheet: str | None = None,
 ) -> Recording: ...
 
 @final
@@ -409,13 +481,17 @@ class Lines:
     @property
     def mean(self) -> float: ...
     @property
+    def trend(self) -> _Array: ...
+    @property
+    def slow(self) -> float: ...
+    @property
     def residual(self) -> float: ...
     @property
     def resolution(self) -> float: ...
     def __len__(self) -> int: ...
     def __call__(self, t: ArrayLike) -> _Array: ...
     def named(
-        self, fundamentals: dict[str, float], order: int = 5, tolerance: float = 0.01
+        self, fundamentals: Mapping[str, float], order: int = 5, tolerance: float = 0.01
     ) -> list[str | None]: ...
 
 def lines(
@@ -424,6 +500,7 @@ def lines(
     most: int = 12,
     smallest: float = 1e-9,
     window: int = 1,
+    trend: int = 3,
 ) -> Lines: ...
 def spectrum(
     x: ArrayLike,
@@ -432,7 +509,14 @@ def spectrum(
     window: int = 1,
     remove_mean: bool = True,
 ) -> tuple[_Array, _Array]: ...
-def average(x: ArrayLike) -> dict[str, Any]: ...
+class _Average(TypedDict):
+    mean: float
+    error: float
+    deviation: float
+    correlation_time: float
+    samples: int
+
+def average(x: ArrayLike) -> _Average: ...
 def transient(x: ArrayLike) -> int: ...
 def running_integral(t: ArrayLike, x: ArrayLike) -> _Array: ...
 

@@ -1,4 +1,4 @@
-//! Nonlinear normal modes: periodic motions between two states of rest.
+//! Nonlinear normal modes: periodic motions between two states at rest.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -7,21 +7,21 @@ use crate::analysis::variational::{Linearised, flow_jacobian};
 use crate::integrate::{Dop853, Options};
 use crate::system::State;
 
-/// A motion that starts from rest and is at rest again half a period later, from where
-/// it goes back the way it came: the nonlinear continuation of a linear mode.
+/// A periodic motion that starts from rest, is at rest again half a period later, and then returns
+/// along the same path: the nonlinear continuation of a linear mode.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BrakeOrbit {
     /// Angles at the release, rad.
     pub release: Vec<f64>,
-    /// Angles half a period later, rad.
+    /// Angles half a period later, at the second state of rest, rad.
     pub turn: Vec<f64>,
     /// Period, s.
     pub period: f64,
 }
 
 impl BrakeOrbit {
-    /// Returns true where the second half of the motion mirrors the first about zero
-    /// angles, as it does for trees that mirror themselves.
+    /// Returns true if the second half of the motion mirrors the first one (angles change sign), as
+    /// for trees with mirror symmetry.
     pub fn is_symmetric(&self) -> bool {
         let largest = |values: &mut dyn Iterator<Item = f64>| values.fold(0.0, f64::max);
         let size = largest(&mut self.release.iter().map(|angle| angle.abs()));
@@ -30,44 +30,46 @@ impl BrakeOrbit {
     }
 }
 
-/// Continuation of a linear mode to motions of any size, without friction and drive.
+/// Settings of the continuation of a linear mode to motions of any amplitude, without friction and
+/// drive.
 ///
-/// Releases a and half periods τ with ω(τ) = 0 form a curve, which is followed from the
-/// equilibrium on: a step along its tangent, then Newton's method across it, with the
-/// derivative of the flow from the variational equations. Source: R. Seydel, *Practical
-/// Bifurcation and Stability Analysis*, 3rd edition, Springer 2010, chapters 4 and 7.
+/// The release angles a and half periods τ at which the velocities vanish, ω(τ) = 0, form a curve.
+/// The curve is followed from the equilibrium by steps along its tangent, each corrected by
+/// Newton's method perpendicular to the tangent; derivatives of the flow come from the variational
+/// equations. Source: R. Seydel, *Practical Bifurcation and Stability Analysis*, 3rd edition,
+/// Springer 2010, chapters 4 and 7.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Continuation {
-    /// Tolerance of the integration.
+    /// Absolute and relative tolerance of the integration.
     pub tolerance: f64,
     /// Longest step along the curve, rad.
     pub step: f64,
-    /// Largest angle from the equilibrium to which it is followed, rad.
+    /// Largest angle from the equilibrium up to which the curve is followed, in rad.
     pub largest: f64,
 }
 
-/// Iterations of Newton's method at one place.
+/// Largest number of iterations of Newton's method at one point of the curve.
 const ITERATIONS: usize = 8;
 
-/// Part of the longest step below which the curve is given up.
+/// Fraction of the longest step below which the curve is no longer followed.
 const SHORTEST: f64 = 1e-3;
 
-/// Steps along the curve.
+/// Largest number of steps along the curve.
 const MOST_STEPS: usize = 10_000;
 
 impl Continuation {
-    /// Returns the motions on the curve, from small to large. `system` is a model in its
-    /// angles, made [`linearised`](crate::analysis::variational::linearised); `shape`
-    /// and `frequency_hz` are those of its linear mode about `equilibrium`, as
-    /// [`Modes`](crate::analysis::Modes) gives them.
+    /// Returns the motions on the curve, from small to large amplitudes. `system` is a model in its
+    /// angles, [`linearised`](crate::analysis::variational::linearised); `shape` and `frequency_hz`
+    /// (Hz) are those of its linear mode about `equilibrium` (rad), as in
+    /// [`Modes`](crate::analysis::Modes).
     ///
-    /// The curve ends where an angle becomes largest, or where it turns so sharply that
-    /// a thousandth of the step does not follow it.
+    /// The curve ends if an angle reaches [`largest`](Self::largest), or if it turns so sharply
+    /// that even a thousandth of the step is too long.
     ///
     /// # Errors
     ///
-    /// [`GrowthError::Mode`], or [`GrowthError::NoOrbit`] where there is no motion on the
-    /// curve at all.
+    /// [`GrowthError::Mode`] for a frequency or shape that does not fit the system, or
+    /// [`GrowthError::NoOrbit`] if no motion of the curve is found.
     pub fn orbits<L: Linearised<f64>>(
         &self,
         system: &L,
@@ -106,7 +108,7 @@ impl Continuation {
                 break;
             }
             orbits.push(shooting.orbit(&found)?);
-            // Shorter where the curve bends.
+            // Makes the next step shorter where the curve bends.
             let turn = next.dot(&tangent);
             step = (step * if turn > 0.995 { 1.5 } else { 0.7 }).min(self.step);
             (place, tangent) = (found, next);
@@ -118,8 +120,8 @@ impl Continuation {
     }
 }
 
-/// Releases from rest. A place on the curve is the angles from the equilibrium and the
-/// half period over that of the linear mode.
+/// Motions of a system that is released at rest. A point of the curve consists of the angles from
+/// the equilibrium (rad) and the half period relative to that of the linear mode.
 struct RestToRest<'a, L> {
     system: &'a L,
     equilibrium: &'a [f64],
@@ -134,8 +136,8 @@ impl<L: Linearised<f64>> RestToRest<'_, L> {
         State::at_rest(0.0, &angles)
     }
 
-    /// Returns the place on the curve across the tangent at `guess`, and the tangent
-    /// there.
+    /// Returns the point at which the curve crosses the plane through `guess` that is perpendicular
+    /// to the tangent, and the tangent of the curve there.
     fn correct(
         &self,
         guess: &DVector<f64>,
@@ -153,7 +155,7 @@ impl<L: Linearised<f64>> RestToRest<'_, L> {
             residual[n] = tangent.dot(&(&place - guess));
             let change = solver.solve(&residual)?;
             place -= &change;
-            // Newton's method squares this.
+            // The error that remains is about the square of this change.
             if change.amax() < tolerance.sqrt() {
                 let mut along = DVector::zeros(n + 1);
                 along[n] = 1.0;
@@ -167,8 +169,8 @@ impl<L: Linearised<f64>> RestToRest<'_, L> {
         None
     }
 
-    /// Returns the velocities half a period after the release, and their derivatives by
-    /// the place, above a row for the tangent.
+    /// Returns the velocities half a period after the release and their derivatives by the point of
+    /// the curve, with an additional row for the tangent.
     fn velocities(&self, place: &DVector<f64>) -> Option<(DVector<f64>, DMatrix<f64>)> {
         let n = self.equilibrium.len();
         let start = self.start(place);

@@ -1,25 +1,26 @@
-//! Numbers that are computed at two tolerances.
+//! Numbers that are computed with two tolerances, to estimate their error.
 
 /// A number that was computed at two tolerances.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Checked {
-    /// The number, by the tighter tolerance.
+    /// The number computed at the tighter tolerance.
     pub value: f64,
-    /// Difference from the number by the other tolerance, relative: to the number itself,
-    /// or, for rates and frequencies below one in the time looked at, to that one.
+    /// Relative difference between the value and that computed with the looser tolerance. For rates
+    /// and frequencies below 1/(time span), it is relative to 1/(time span).
     pub difference: f64,
 }
 
 impl Checked {
-    /// Largest relative difference of a number that counts as determined.
+    /// Largest relative difference up to which a number counts as determined.
     pub const DETERMINED: f64 = 0.01;
 
-    /// Returns true where the two tolerances agree to 1 %.
+    /// Returns true if the results at the two tolerances agree to 1 %.
     pub fn is_determined(&self) -> bool {
         self.difference <= Self::DETERMINED
     }
 
-    /// Of a positive number given by its logarithms.
+    /// Returns the positive number whose logarithm is `coarse` at the looser tolerance and `fine`
+    /// at the tighter one.
     pub(super) fn of_logarithms(coarse: f64, fine: f64) -> Self {
         Self {
             value: fine.exp(),
@@ -27,7 +28,8 @@ impl Checked {
         }
     }
 
-    /// Of a number in 1/s found over `span` seconds.
+    /// Returns a rate or frequency (1/s) measured over `span` seconds: `coarse` at the looser
+    /// tolerance, `fine` at the tighter one.
     pub(super) fn of_rates(coarse: f64, fine: f64, span: f64) -> Self {
         Self {
             value: fine,
@@ -46,7 +48,7 @@ mod tests {
         assert!((factor.value - 1.0).abs() < 1e-15 && (factor.difference - 0.02).abs() < 1e-15);
         let smaller = Checked::of_logarithms(0.0, 1.02_f64.ln());
         assert!((smaller.value - 1.02).abs() < 1e-15 && (smaller.difference - 0.02).abs() < 1e-15);
-        // To the rate, or to one in the span.
+        // Differences are relative to the rate, or to one per span if that is larger.
         let fast = Checked::of_rates(-0.202, -0.2, 100.0);
         assert!((fast.difference - 0.01).abs() < 1e-12 && fast.value == -0.2);
         let slow = Checked::of_rates(0.003, 0.001, 50.0);

@@ -1,29 +1,29 @@
-//! Why there is no growth.
+//! Errors in the computation of growth, and of periodic motions.
 
 use crate::errors::errors;
 use crate::integrate::IntegrationError;
 
 errors! {
-    /// Reason for which a growth was not found.
+    /// Reason why the growth of differences, or a periodic motion, could not be computed.
     #[derive(Clone, Debug, PartialEq)]
     #[non_exhaustive]
     pub enum GrowthError {
-        /// The frequency by which differences are looked at is not positive.
-        Frequency(frequency: f64) => "differences are looked at by a positive frequency, not one \
-            of {frequency} Hz",
+        /// The frequency that relates differences and their rates is not positive.
+        Frequency(frequency: f64) => "the frequency that relates differences to their rates is \
+            {frequency} Hz: it must be positive",
         /// There are no horizons, or they are not positive and ascending.
-        Horizons => "the horizons of growth are positive times, ascending",
-        /// The start holds no difference, or its components are not those of the system.
-        Difference => "the start of a growth has a difference that is not zero, among as many \
-            components as the system has",
-        /// A start at another time than the first one's.
-        StartTime(time: f64) => "a start at {time} s is at another time than the first one",
-        /// The frequency or shape of a mode fits no release from rest.
-        Mode => "a mode has a positive frequency, and a shape of as many parts as there are \
-            angles",
-        /// No periodic motion was found beside the mode.
-        NoOrbit => "no periodic motion was found beside the linear mode",
-        /// The integration failed.
+        Horizons => "the horizons of growth must be positive times in ascending order",
+        /// The difference at the start is zero, or has a wrong number of components.
+        Difference => "the start must have as many components as the system, and a difference \
+            that is not zero",
+        /// The time (s) of a start differs from that of the first start.
+        StartTime(time: f64) => "a start is at the time {time} s: all starts must be at the same \
+            time",
+        /// The frequency or the shape of a mode does not fit the system.
+        Mode => "a mode must have a positive frequency, and a shape with one number for each angle",
+        /// No periodic motion was found near the linear mode.
+        NoOrbit => "found no periodic motion near the linear mode",
+        /// The integration of a motion failed.
         Integration(error: Box<IntegrationError<f64>>) => "{error}",
     }
 }

@@ -1,31 +1,31 @@
-//! Floquet multipliers: the fate of small deviations from periodic motions.
+//! Floquet multipliers: the growth of small deviations from periodic motions.
 
 use nalgebra::DMatrix;
 
-use super::{BrakeOrbit, Checked, FINER, GrowthError, TransverseSystem, places};
+use super::{BrakeOrbit, Checked, FINER, GrowthError, TransverseSystem, difference_ranges};
 use crate::analysis::variational::{Linearised, flow_jacobian};
 use crate::integrate::{Dop853, Integrator, Options};
 use crate::system::State;
 
-/// The monodromy matrix of small deviations from a periodic motion: what one period of
-/// their equations makes of them.
+/// The monodromy matrix of small deviations from a periodic motion, which maps deviations at the
+/// start of a period to those at its end, and its eigenvalues.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Floquet {
-    /// Period of the equations of the deviations, s: half of the motion's for
-    /// differences beside a symmetric one.
+    /// Period of the equations of the deviations, in s. For differences along a symmetric motion,
+    /// whose two halves mirror each other, it is half the period of the motion.
     pub period: f64,
-    /// The matrix, row by row: deviations of angles first, then of velocities.
+    /// The monodromy matrix, row by row: deviations of angles first, then of velocities.
     pub matrix: Vec<Vec<f64>>,
-    /// Eigenvalues of the matrix, as real and imaginary part, the largest first.
+    /// Eigenvalues of the matrix as [real, imaginary] parts, the largest absolute value first.
     pub multipliers: Vec<[f64; 2]>,
-    /// Growth rate, 1/s: the logarithm of the largest multiplier over the period; zero to
-    /// rounding where the motion is stable.
+    /// Growth rate, 1/s: the logarithm of the largest absolute multiplier over the period; zero to
+    /// rounding if the motion is stable.
     pub rate: Checked,
 }
 
 impl Floquet {
-    /// Returns the multipliers of small differences beside an in-phase motion, whose angles are
-    /// those of the system.
+    /// Returns the Floquet multipliers of small differences between copies along a periodic
+    /// in-phase motion. The angles of `orbit` are those of the system.
     ///
     /// # Errors
     ///
@@ -36,7 +36,7 @@ impl Floquet {
         tolerance: f64,
     ) -> Result<Self, GrowthError> {
         let parts = if orbit.is_symmetric() { 2.0 } else { 1.0 };
-        let (place, links) = (places(ode), ode.differences());
+        let (place, links) = (difference_ranges(ode), ode.differences());
         Self::checked(orbit.period / parts, tolerance, |method, period| {
             let mut matrix = DMatrix::zeros(2 * links, 2 * links);
             for column in 0..2 * links {
@@ -55,9 +55,9 @@ impl Floquet {
         })
     }
 
-    /// Returns the multipliers of deviations within a system that has the motion, as
-    /// [`linearised`](crate::analysis::variational::linearised) gives it. Two of a
-    /// conservative one are 1.
+    /// Returns the multipliers of deviations from a motion of the system itself, as
+    /// [`linearised`](crate::analysis::variational::linearised) returns it. For a conservative
+    /// system, two multipliers are 1.
     ///
     /// # Errors
     ///

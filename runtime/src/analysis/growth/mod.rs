@@ -1,10 +1,9 @@
-//! Growth of small differences between copies that move in phase: by how much and how
-//! fast, over many releases at a time ([`Growth`]), and along periodic motions
-//! ([`BrakeOrbit`], [`Floquet`]).
+//! Growth of small differences between copies that move in phase: its factor and rate, for many
+//! releases at once ([`Growth`]), and along periodic motions ([`BrakeOrbit`], [`Floquet`]).
 //!
-//! Everything is computed at two tolerances, and each number says by how much the two
-//! differ ([`Checked`]): where motions are chaotic, growth over a long time is a number
-//! that no tolerance finds.
+//! Everything is computed at two tolerances, and each result contains the difference between the
+//! two ([`Checked`]): where motions are chaotic, no tolerance determines the growth over a long
+//! time.
 
 mod brake_orbit;
 mod checked;
@@ -26,14 +25,14 @@ pub use self::floquet::Floquet;
 use self::record::GrowthRecord;
 pub use self::rotation::turns_a_second;
 use self::run::{DifferenceRanges, GrowthRun, follow_in_lanes, scales};
-use self::transverse::places;
+use self::transverse::difference_ranges;
 pub use self::transverse::{TransverseSystem, frequency_at_rest};
 use super::variational::{Linearised, Variational};
 use crate::ensemble::Ensemble;
 use crate::integrate::{Dop853, Integrator, Options};
 use crate::system::{LaneOde, Ode, State};
 
-/// Computation of the growth of differences.
+/// Settings for computing the growth of differences.
 ///
 /// # Examples
 ///
@@ -76,52 +75,52 @@ use crate::system::{LaneOde, Ode, State};
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Growth {
-    /// Frequency of small differences at rest, in hertz ([`frequency_at_rest`]): by it
-    /// rates are compared with differences, and motions are looked at 32 times a period.
+    /// Frequency of small differences at rest ([`frequency_at_rest`]), Hz. Rates of differences are
+    /// divided by the corresponding angular frequency ω, and motions are sampled 32 times per
+    /// period.
     pub frequency_hz: f64,
-    /// Times after the start up to which growth is asked for, in seconds, ascending.
+    /// Times after the start up to which growth is computed, s, ascending.
     pub horizons: Vec<f64>,
-    /// Tolerance of the integration (absolute and relative). It is repeated with a
-    /// hundredth of it, whose result is what is returned.
+    /// Absolute and relative tolerance of the integration. The integration is repeated with a
+    /// hundredth of it, and the result of the repetition is returned.
     pub tolerance: f64,
 }
 
-/// The growth of differences along one motion.
+/// Growth of the differences between copies during one motion.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Grown {
-    /// Growth factor up to each horizon: the largest size |δ| of the differences δ over
-    /// their amplitude √(|δ|² + |δ'|²/ω²) at the start; infinite beyond 1e308.
+    /// Growth factor up to each horizon: the largest size |δ| of the differences δ, divided by
+    /// their amplitude √(|δ|² + |δ'|²/ω²) at the start; infinite above 1e308.
     pub factors: Vec<Checked>,
-    /// Growth rate in 1/s over the last horizon T: ln(A₂/A₁)/(T/2) with the largest
-    /// amplitudes A₁ and A₂ in its two halves. Near zero where differences keep their
-    /// size, though they beat.
+    /// Growth rate in 1/s over the last horizon T: ln(A₂/A₁)/(T/2) with the largest amplitudes A₁
+    /// and A₂ in its two halves. It is near zero if differences keep their size, even if they beat.
     pub rate: Checked,
-    /// Turns a second of (δ, δ'/ω) about the origin, for the first of the differences:
-    /// the frequency of their motion, in hertz ([`turns_a_second`]).
+    /// Frequency of the first difference, Hz: the number of turns per second of (δ, δ'/ω) about the
+    /// origin ([`turns_a_second`]).
     pub frequency_hz: Checked,
 }
 
-/// Tolerance of the run that is believed over that of the other.
+/// Ratio of the tighter tolerance to the looser one.
 const FINER: f64 = 0.01;
 
 impl Growth {
-    /// Looks at a motion in one period of [`frequency_hz`](Self::frequency_hz).
+    /// Number of samples of a motion in one period of [`frequency_hz`](Self::frequency_hz).
     pub const LOOKS_A_PERIOD: f64 = 32.0;
 
-    /// Looks after which differences are scaled back: they grow by less than e a look. States at so
-    /// many are kept at a time, with the one before them.
+    /// Number of samples after which differences are rescaled; they grow by less than the factor e
+    /// between two samples. That number of states, and the one before them, are stored at a time.
     pub const LOOKS_A_SCALE: usize = 256;
 
-    /// Returns the growth along motions from the given starts, on all cores and in the
-    /// lanes of vector registers. A start is a state of its [`TransverseSystem`], as of a
-    /// [`TransverseOde`](crate::system::TransverseOde): in-phase angles, differences, in-phase
-    /// velocities, rates of the differences; all start at one time.
+    /// Returns the growth of differences along the motion from each start, computed on all cores
+    /// and in the lanes of vector registers. A start is a state of its [`TransverseSystem`], such
+    /// as [`TransverseOde`](crate::system::TransverseOde): in-phase angles, differences, in-phase
+    /// velocities, rates of the differences. All starts have the same time.
     ///
-    /// The result of a start depends neither on the others nor on the number of threads.
+    /// The result of a start depends neither on the other starts nor on the number of threads.
     ///
     /// # Errors
     ///
-    /// Each result of its own: [`GrowthError`].
+    /// Each start has its own result, which may be a [`GrowthError`].
     pub fn in_lanes<O>(
         &self,
         ensemble: &Ensemble<'_>,
@@ -134,13 +133,14 @@ impl Growth {
         self.in_lanes_by_frequency(ensemble, releases, &frequencies_hz)
     }
 
-    /// Returns the same of systems that differ in their constants, each with a frequency of its
-    /// own (Hz) in place of [`frequency_hz`](Self::frequency_hz), which serves releases behind the last
-    /// frequency. The result of a release is that of [`in_lanes`](Self::in_lanes) with its frequency.
+    /// Returns the growth of differences along motions of systems that differ in their constants.
+    /// Each release has its frequency (Hz) in `frequencies`; releases beyond its end use
+    /// [`frequency_hz`](Self::frequency_hz). The result of a release is that of
+    /// [`in_lanes`](Self::in_lanes) with its frequency.
     ///
     /// # Errors
     ///
-    /// Each result of its own: [`GrowthError`].
+    /// Each release has its own result, which may be a [`GrowthError`].
     pub fn in_lanes_by_frequency<O>(
         &self,
         ensemble: &Ensemble<'_>,
@@ -160,7 +160,7 @@ impl Growth {
         let mut looks: Vec<Arc<[f64]>> = Vec::new();
         let mut before = f64::NAN;
         for frequency in frequencies.clone().take(releases.len()) {
-            // Neighbours are often of one system.
+            // Shares sample times with the release before, which often has the same frequency.
             looks.push(match looks.last() {
                 Some(last) if frequency == before => last.clone(),
                 _ => with(frequency).looks(start).into(),
@@ -174,7 +174,7 @@ impl Growth {
                 if release.time != start {
                     return Err(GrowthError::StartTime(release.time));
                 }
-                with(frequency).begin(release.clone(), places(ode))
+                with(frequency).begin(release.clone(), difference_ranges(ode))
             });
             let mut runs: Vec<Result<GrowthRun, GrowthError>> = runs.collect();
             follow_in_lanes(&method, ensemble, releases, &looks, &mut runs);
@@ -185,11 +185,11 @@ impl Growth {
             .collect()
     }
 
-    /// Returns the growth of a deviation along the motion of any system that knows its
-    /// linearisation, for models without transverse equations. `differences` are the
-    /// components of a state that count as angles of differences and as their rates, as
-    /// many of one as of the other. A deviation within an invariant subspace stays in it but for
-    /// rounding, and says nothing of what grows elsewhere.
+    /// Returns the growth of a deviation along a motion of any linearised system, for models
+    /// without transverse equations. `differences` are two index ranges of the same length:
+    /// components of the state that are angles of differences, and their rates. A deviation within
+    /// an invariant subspace stays in it up to rounding, so that its growth says nothing about
+    /// deviations out of it.
     ///
     /// # Errors
     ///
@@ -211,13 +211,13 @@ impl Growth {
             rates: n + rates.start..n + rates.end,
         };
         let both = State::new(start.time, [&start.values, deviation].concat());
-        // All of the deviation: parts of it drive each other.
+        // Scales all components of the deviation, since they drive each other.
         let (system, scaled) = (Variational::new(system, 1), n..2 * n);
         self.follow(&system, &both, &place, std::slice::from_ref(&scaled))
     }
 
-    /// Returns the growth along the motion from one start, on this thread: one of those of
-    /// [`in_lanes`](Self::in_lanes), to rounding.
+    /// Returns the growth along the motion from one start, computed on this thread. To rounding it
+    /// is the result of [`in_lanes`](Self::in_lanes).
     ///
     /// # Errors
     ///
@@ -227,13 +227,13 @@ impl Growth {
         system: &O,
         start: &State<f64>,
     ) -> Result<Grown, GrowthError> {
-        let place = places(system);
+        let place = difference_ranges(system);
         let scaled = [place.angles.clone(), place.rates.clone()];
         self.follow(system, start, &place, &scaled)
     }
 
-    /// Follows one motion at both tolerances; differences are scaled back with all that is
-    /// `scaled`.
+    /// Computes one motion with both tolerances. When differences are rescaled, all components of
+    /// `scaled` are divided.
     fn follow<O: Ode<f64>>(
         &self,
         system: &O,
@@ -249,7 +249,7 @@ impl Growth {
                 let begin = run.state.clone();
                 let end = method.sample(system, &begin, times, |time, state| {
                     if number > 0 {
-                        run.look(time, state);
+                        run.add_sample(time, state);
                     }
                     number += 1;
                 })?;
@@ -285,7 +285,8 @@ impl Growth {
         })
     }
 
-    /// Times of the looks: the start, equal steps to each horizon, and the horizons.
+    /// Returns the times of the samples: the start, equal intervals up to each horizon, and the
+    /// horizons.
     fn looks(&self, start: f64) -> Vec<f64> {
         let interval = 1.0 / (Self::LOOKS_A_PERIOD * self.frequency_hz);
         let mut times = vec![start];

@@ -1,39 +1,39 @@
-//! Sizes of differences along one motion, as they are looked at.
+//! Recording of the sizes of differences along one motion.
 
 use std::f64::consts::TAU;
 
 use super::rotation::TurnCount;
 use super::{Growth, GrowthError};
 
-/// Largest sizes and amplitudes of differences as they are looked at, one look after the
-/// other. All are logarithms, so that no growth is too large.
+/// Largest sizes and amplitudes of differences over the samples of a motion, stored as logarithms
+/// so that large growth does not overflow.
 #[derive(Clone, Debug)]
 pub(super) struct GrowthRecord {
     frequency: f64,
     start: f64,
     horizons: Vec<f64>,
-    /// Logarithm of what differences were divided by.
+    /// Logarithm of the product of all factors by which differences have been divided.
     scale: f64,
-    last: Look,
-    /// Amplitude at the start, from which growth is counted.
+    last: DifferenceSample,
+    /// Logarithm of the amplitude at the start, relative to which growth is measured.
     first: f64,
     largest: f64,
     factors: Vec<f64>,
-    /// Largest amplitudes in the two halves of the span.
+    /// Logarithms of the largest amplitudes in the two halves of the last time span.
     halves: [f64; 2],
     turns: TurnCount,
 }
 
-/// One look: |δ|² and its rate, and the square of the amplitude.
+/// One sample of a difference δ: |δ|² with its rate of change, and the squared amplitude.
 #[derive(Clone, Copy, Debug)]
-struct Look {
+struct DifferenceSample {
     time: f64,
     square: f64,
     rate: f64,
     amplitude: f64,
 }
 
-impl Look {
+impl DifferenceSample {
     fn new(time: f64, angles: &[f64], rates: &[f64], frequency: f64) -> Self {
         let dot = |a: &[f64], b: &[f64]| -> f64 { a.iter().zip(b).map(|(a, b)| a * b).sum() };
         let square = dot(angles, angles);
@@ -45,15 +45,15 @@ impl Look {
         }
     }
 
-    /// Largest |δ|² from the look before to this one, by the cubic polynomial that has
-    /// both and their rates.
+    /// Returns the largest |δ|² between the sample `before` and this one, from the cubic polynomial
+    /// through the values and rates of both.
     fn largest_since(&self, before: &Self) -> f64 {
         let step = self.time - before.time;
         let (from, to) = (step * before.rate, step * self.rate);
         let rise = self.square - before.square;
         let (b, c, d) = (from, 3.0 * rise - 2.0 * from - to, from + to - 2.0 * rise);
         let at = |x: f64| before.square + x * (b + x * (c + x * d));
-        // Zeros of b + 2 c x + 3 d x².
+        // Zeros of the derivative b + 2 c x + 3 d x².
         let q = -(c + c.signum() * (c * c - 3.0 * b * d).sqrt());
         let inside = [q / (3.0 * d), b / q].into_iter();
         let inside = inside.filter(|x| (0.0..=1.0).contains(x)).map(at);
@@ -69,7 +69,7 @@ impl GrowthRecord {
         rates: &[f64],
     ) -> Result<Self, GrowthError> {
         let frequency = TAU * growth.frequency_hz;
-        let last = Look::new(start, angles, rates, frequency);
+        let last = DifferenceSample::new(start, angles, rates, frequency);
         let point = angles.first().zip(rates.first());
         let (Some((&angle, &rate)), Some(&span)) = (point, growth.horizons.last()) else {
             return Err(GrowthError::Difference);
@@ -92,14 +92,14 @@ impl GrowthRecord {
         })
     }
 
-    pub(super) fn look(&mut self, time: f64, angles: &[f64], rates: &[f64]) {
-        let look = Look::new(time, angles, rates, self.frequency);
+    pub(super) fn add_sample(&mut self, time: f64, angles: &[f64], rates: &[f64]) {
+        let look = DifferenceSample::new(time, angles, rates, self.frequency);
         let largest = 0.5 * look.largest_since(&self.last).ln() + self.scale;
         self.largest = self.largest.max(largest);
         let half = &mut self.halves[usize::from(time - self.start > 0.5 * self.span())];
         *half = half.max(0.5 * look.amplitude.ln() + self.scale);
         self.turns
-            .look(time, (angles[0], rates[0] / self.frequency));
+            .add_sample(time, (angles[0], rates[0] / self.frequency));
         self.last = look;
         let next = self.horizons.get(self.factors.len());
         if next.is_some_and(|horizon| time >= self.start + horizon) {
@@ -107,10 +107,11 @@ impl GrowthRecord {
         }
     }
 
-    /// Returns the amplitude by which differences are divided from here on.
+    /// Returns the amplitude by which the caller must divide the differences, and divides the
+    /// record's last sample by it.
     pub(super) fn scale(&mut self) -> f64 {
         let factor = self.last.amplitude.sqrt();
-        let Look {
+        let DifferenceSample {
             square,
             rate,
             amplitude,
@@ -127,7 +128,7 @@ impl GrowthRecord {
         self.horizons.last().copied().unwrap_or(f64::NAN)
     }
 
-    /// Logarithms of the growth factors.
+    /// Returns the logarithms of the growth factors, one for each horizon reached.
     pub(super) fn factors(&self) -> &[f64] {
         &self.factors
     }
@@ -147,7 +148,8 @@ mod tests {
     use crate::analysis::growth::Growth;
     use std::f64::consts::{E, TAU};
 
-    /// e^(0.3 t) cos(2 π t), scaled back on the way.
+    /// Checks the record for the difference e^(0.3 t) cos(2 π t), which is rescaled during the
+    /// motion.
     #[test]
     fn a_growing_oscillation() {
         let growth = Growth {
@@ -167,7 +169,7 @@ mod tests {
         let mut scale = 1.0;
         for (number, &time) in times.iter().enumerate().skip(1) {
             let (angle, rate) = state(time);
-            record.look(time, &[angle / scale], &[rate / scale]);
+            record.add_sample(time, &[angle / scale], &[rate / scale]);
             if number % 50 == 0 {
                 scale *= record.scale();
             }
@@ -181,8 +183,8 @@ mod tests {
         assert!(long.exp() < E.powi(3) * 1.01);
     }
 
-    /// The largest value between looks, at every place of the peak between two of them, of
-    /// one difference and of two, scaled back on the way or not.
+    /// Checks that the largest value is found if its peak lies between two samples, for one and for
+    /// two differences, with and without rescaling.
     #[test]
     fn peaks_between_looks() {
         let growth = Growth {
@@ -191,7 +193,7 @@ mod tests {
             tolerance: 1e-9,
         };
         for eighths in 0..8 {
-            // A look is 2π/32 of phase.
+            // The phase between two samples is 2π/32.
             let phase = f64::from(eighths) * TAU / 256.0;
             let state = |time: f64, width: f64| {
                 let (sine, cosine) = (TAU * time + phase).sin_cos();
@@ -204,12 +206,12 @@ mod tests {
                 for time in growth.looks(0.0).into_iter().skip(1) {
                     let (angles, rates) = state(time, width);
                     let [angles, rates] = [angles, rates].map(|all| all.map(|x| x / scale));
-                    record.look(time, &angles, &rates);
+                    record.add_sample(time, &angles, &rates);
                     if scaled {
                         scale *= record.scale();
                     }
                 }
-                // The amplitude at the start is that of both, the largest size is 1.
+                // The amplitude at the start is that of both differences; the largest size is 1.
                 let factor = record.factors()[0] + 0.5 * width.mul_add(width, 1.0).ln();
                 assert!(factor.abs() < 5e-5, "{eighths} {width} {factor}");
                 assert!(record.rate().abs() < 1e-6);

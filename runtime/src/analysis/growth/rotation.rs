@@ -1,14 +1,13 @@
-//! Turns about the origin.
+//! Counting of the turns of a point about the origin.
 
 use std::f64::consts::{PI, TAU};
 
-/// The turns of a point about the origin, clockwise, as they add up over a span.
+/// Weighted mean of the turning rate of a point about the origin, clockwise, over a span of time.
 ///
-/// The mean over the span has weights exp(−1/(u(1 − u))), u the part of it that has
-/// passed: for motions of several frequencies such means converge faster than any power
-/// of the span, where a plain count is right to one turn only. Source: S. Das, Y. Saiki,
-/// E. Sander, J. A. Yorke, *Quantitative quasiperiodicity*, Nonlinearity 30 (2017)
-/// 4111–4140.
+/// The weights are exp(−1/(u(1 − u))), where u from 0 to 1 is the elapsed fraction of the span. For
+/// motions of several frequencies such means converge faster than any power of the span, whereas a
+/// plain count is accurate to one turn only. Source: S. Das, Y. Saiki, E. Sander, J. A. Yorke,
+/// *Quantitative quasiperiodicity*, Nonlinearity 30 (2017) 4111–4140.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct TurnCount {
     start: f64,
@@ -31,8 +30,8 @@ impl TurnCount {
         }
     }
 
-    /// Takes the next point, less than half a turn further.
-    pub(super) fn look(&mut self, time: f64, point: (f64, f64)) {
+    /// Adds the next point, at `time` (s), which must be less than half a turn from the last one.
+    pub(super) fn add_sample(&mut self, time: f64, point: (f64, f64)) {
         let angle = angle(point);
         let turned = (angle - self.angle + PI).rem_euclid(TAU) - PI;
         let part = (0.5 * (time + self.time) - self.start) / self.span;
@@ -51,10 +50,10 @@ fn angle((displacement, velocity): (f64, f64)) -> f64 {
     (-velocity).atan2(displacement)
 }
 
-/// Returns the turns a second of a displacement and its velocity about the origin:
-/// where one oscillation is larger than all others together, its frequency in hertz. In
-/// what unit the velocity is measured is of no importance over a long time; that of the
-/// frequency itself is best. Times ascend, with less than half a turn between two.
+/// Returns the turns per second of a displacement and its velocity, as a point in the plane, about
+/// the origin: the frequency (Hz) of the largest oscillation, if it is larger than all others
+/// together. The unit of the velocity does not matter over a long time; dividing it by the angular
+/// frequency converges fastest. `times` (s) ascend, with less than half a turn between two.
 ///
 /// ```
 /// use branched_pendulum::analysis::growth::turns_a_second;
@@ -73,6 +72,6 @@ pub fn turns_a_second(times: &[f64], points: impl IntoIterator<Item = (f64, f64)
         return f64::NAN;
     };
     let mut turns = TurnCount::new(start, end - start, point);
-    both.for_each(|(&time, point)| turns.look(time, point));
+    both.for_each(|(&time, point)| turns.add_sample(time, point));
     turns.a_second()
 }

@@ -1,4 +1,4 @@
-//! Motions on their way, one by one or in lanes.
+//! Integration of motions with differences, one by one or in the lanes of vector registers.
 
 use std::ops::Range;
 use std::sync::Arc;
@@ -10,14 +10,14 @@ use crate::ensemble::Ensemble;
 use crate::integrate::Dop853;
 use crate::system::{LaneOde, State};
 
-/// Where differences stand in a state.
+/// Index ranges of the differences and their rates in a state.
 #[derive(Clone, Debug)]
 pub(super) struct DifferenceRanges {
     pub(super) angles: Range<usize>,
     pub(super) rates: Range<usize>,
 }
 
-/// A motion on its way, and what was seen of it.
+/// A motion at its present state, with the record of its differences.
 pub(super) struct GrowthRun {
     pub(super) state: State<f64>,
     pub(super) place: DifferenceRanges,
@@ -25,13 +25,13 @@ pub(super) struct GrowthRun {
 }
 
 impl GrowthRun {
-    pub(super) fn look(&mut self, time: f64, state: &[f64]) {
+    pub(super) fn add_sample(&mut self, time: f64, state: &[f64]) {
         let DifferenceRanges { angles, rates } = self.place.clone();
-        self.record.look(time, &state[angles], &state[rates]);
+        self.record.add_sample(time, &state[angles], &state[rates]);
     }
 
-    /// Divides these components by the amplitude of the differences, which are among them, so
-    /// that they stay within numbers.
+    /// Divides these components of the state, which include the differences, by the amplitude of
+    /// the differences, so that they do not overflow.
     pub(super) fn scale(&mut self, components: &[Range<usize>]) {
         let factor = self.record.scale();
         for place in components {
@@ -42,8 +42,8 @@ impl GrowthRun {
     }
 }
 
-/// Follows runs in lanes, from time to time at which their differences are scaled back. A run that
-/// fails becomes its error.
+/// Integrates runs in lanes, each from one time at which differences are rescaled to the next. A
+/// run that fails is replaced by its error.
 pub(super) fn follow_in_lanes<O>(
     method: &Dop853<f64>,
     ensemble: &Ensemble<'_>,
@@ -54,7 +54,7 @@ pub(super) fn follow_in_lanes<O>(
     O: LaneOde<f64> + Sync,
 {
     for number in 0.. {
-        // Of the runs that go on, the times until differences are scaled back.
+        // For each run without an error, the times until differences are scaled back.
         let both = runs.iter().zip(looks);
         let pieces = both.map(|(run, looks)| {
             let times = scale(looks, number)?;
@@ -77,7 +77,7 @@ pub(super) fn follow_in_lanes<O>(
         for ((place, times), samples) in moving.zip(samples) {
             let Ok(run) = place else { continue };
             for (&time, state) in times.iter().zip(samples.states()).skip(1) {
-                run.look(time, state);
+                run.add_sample(time, state);
             }
             match samples.end {
                 Ok(end) => {
@@ -91,15 +91,15 @@ pub(super) fn follow_in_lanes<O>(
     }
 }
 
-/// One of the pieces of the times between which differences are scaled back; each begins where
-/// the one before ends.
+/// Returns part number `number` of the sample times, between two times at which differences are
+/// rescaled; `None` after the last. Each part begins where the one before ends.
 fn scale(times: &[f64], number: usize) -> Option<&[f64]> {
     let start = number * Growth::LOOKS_A_SCALE;
     let end = (start + Growth::LOOKS_A_SCALE + 1).min(times.len());
     (start + 1 < times.len()).then(|| &times[start..end])
 }
 
-/// All of them.
+/// Iterates over the parts of the sample times between which differences are rescaled.
 pub(super) fn scales(times: &[f64]) -> impl Iterator<Item = &[f64]> {
     (0..).map_while(|number| scale(times, number))
 }

@@ -1,14 +1,14 @@
-//! Averages by the integrated autocorrelation time.
+//! Averages with errors from the integrated autocorrelation time.
 
 use super::{StatisticsError, check, mean};
 
-/// Correlation at which the sum of correlations ends.
+/// Autocorrelation below which the summation over lags ends.
 const LEAST_CORRELATION: f64 = 0.05;
 
-/// Fewest correlation times that have an average.
+/// Smallest length of a series, in correlation times, for which an average is returned.
 const FEWEST_TIMES: f64 = 8.0;
 
-/// An average over time, and over independent starts.
+/// The average of a quantity over time and over independent starts, with its error.
 ///
 /// # Examples
 ///
@@ -39,29 +39,29 @@ pub struct Average {
     pub error: f64,
     /// Standard deviation of the samples.
     pub deviation: f64,
-    /// Integrated autocorrelation time τ, in samples: 1 where they are independent.
+    /// Integrated autocorrelation time τ, in samples: 1 if the samples are independent.
     pub correlation_time: f64,
     /// Number of samples.
     pub samples: usize,
 }
 
 impl Average {
-    /// The average of series of one quantity, sampled at even times in a steady state,
-    /// each from a start of its own.
+    /// Returns the average of series of one quantity, sampled at equal intervals in a steady state.
+    /// The series are from independent starts.
     ///
-    /// The autocorrelation ρ is that of all series about their common mean, so that
-    /// series that stay apart are not taken for independent samples; τ = 1 + 2 Σ ρ over
-    /// the lags before the first with ρ < 0.05; the error is σ √(τ/n). (N. Madras
-    /// and A. D. Sokal, *Journal of Statistical Physics* 50, 109, 1988.)
+    /// The autocorrelation ρ is that of all series about their common mean, so that series that
+    /// stay apart do not count as independent samples; τ = 1 + 2 Σ ρ over the lags before the first
+    /// with ρ < 0.05; the error is σ √(τ/n). (N. Madras and A. D. Sokal, *Journal of Statistical
+    /// Physics* 50, 109, 1988.)
     ///
     /// # Errors
-    /// [`StatisticsError`]; `Correlated` where ρ stays above 0.05 up to half of the
-    /// longest series, or n is below 8 τ.
+    /// [`StatisticsError`]; `Correlated` if ρ stays above 0.05 up to half of the longest series, or
+    /// if n is below 8 τ.
     pub fn of<S: AsRef<[f64]>>(series: &[S]) -> Result<Self, StatisticsError> {
         let samples = check(series, 2)?;
         let mean = mean(series, samples);
         if !fluctuates(series) {
-            // Their variance would be that of the mean's rounding.
+            // The variance of equal samples would be that of the mean's rounding.
             return Ok(Self {
                 mean,
                 error: 0.0,
@@ -90,8 +90,8 @@ impl Average {
         if number < FEWEST_TIMES * time {
             return Err(StatisticsError::Correlated { samples, lag });
         }
-        // The mean is that of the samples: their deviations from it are smaller than
-        // from the true one by 1 − τ/n.
+        // Corrects the variance: deviations from the mean of the samples are smaller than from the
+        // true mean, by the factor 1 − τ/n.
         let variance = variance / (1.0 - time / number);
         Ok(Self {
             mean,
@@ -102,7 +102,7 @@ impl Average {
         })
     }
 
-    /// Number of independent samples that these are worth.
+    /// Returns the number of independent samples with the same error, n/τ.
     pub fn independent(&self) -> f64 {
         self.samples as f64 / self.correlation_time
     }
@@ -115,7 +115,7 @@ fn fluctuates<S: AsRef<[f64]>>(series: &[S]) -> bool {
     samples.any(|sample| Some(sample) != first)
 }
 
-/// Mean product of deviations from `mean` that are `lag` samples apart.
+/// Returns the mean product of deviations from `mean` that are `lag` samples apart.
 fn covariance<S: AsRef<[f64]>>(series: &[S], mean: f64, lag: usize) -> f64 {
     let (mut sum, mut number) = (0.0, 0_usize);
     for values in series.iter().map(AsRef::as_ref) {

@@ -2,16 +2,16 @@
 
 use super::{StatisticsError, check, mean};
 
-/// The standard error of a mean, had blocks of this length been independent.
+/// The standard error of a mean, computed as if blocks of this length were independent.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BlockLevel {
-    /// Samples in a block.
+    /// Number of samples in a block.
     pub length: usize,
-    /// Number of blocks, of all series.
+    /// Number of blocks in all series together.
     pub blocks: usize,
-    /// Standard error of the mean by the spread of the blocks.
+    /// Standard error of the mean, computed from the spread of the block means.
     pub error: f64,
-    /// Standard error of that error.
+    /// Standard error of `error`.
     pub uncertainty: f64,
 }
 
@@ -42,13 +42,14 @@ pub struct Blocking {
     pub mean: f64,
     /// Number of samples.
     pub samples: usize,
-    /// Errors by the length of the blocks, single samples first.
+    /// Errors for ascending lengths of the blocks; the first is for single samples.
     pub levels: Vec<BlockLevel>,
 }
 
 impl Blocking {
-    /// Blocks of series of one quantity, sampled at even times in a steady state. No
-    /// block holds samples of two series; samples that fill no block are left out of it.
+    /// Computes the errors by blocks for series of one quantity that were sampled at equal
+    /// intervals in a steady state. Blocks do not extend over two series; samples that do not fill
+    /// a block are left out.
     ///
     /// # Errors
     /// [`StatisticsError`].
@@ -85,13 +86,13 @@ impl Blocking {
         })
     }
 
-    /// The plateau: the shortest blocks of length b with b³ > 2 n (e_b/e_1)⁴, where the
-    /// error left over by correlation falls below that of the spread of so many blocks
-    /// (U. Wolff, *Computer Physics Communications* 156, 143, 2004; R. M. Lee et al.,
-    /// *Physical Review E* 83, 066706, 2011).
+    /// Returns the error at the plateau, which is the error of the shortest blocks of length b with
+    /// b³ > 2 n (e_b/e_1)⁴, at which the remaining error from correlations is smaller than that
+    /// from the finite number of blocks (U. Wolff, *Computer Physics Communications* 156, 143,
+    /// 2004; R. M. Lee et al., *Physical Review E* 83, 066706, 2011).
     ///
     /// # Errors
-    /// [`StatisticsError::Correlated`] where no blocks are so long.
+    /// [`StatisticsError::Correlated`] if no block is long enough.
     pub fn error(&self) -> Result<BlockLevel, StatisticsError> {
         let alone = self.levels.first().map_or(0.0, |level| level.error);
         let long = |level: &&BlockLevel| {

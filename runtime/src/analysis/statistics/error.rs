@@ -1,37 +1,37 @@
-//! Why there is no average.
+//! Errors in the computation of averages.
 
 use crate::errors::errors;
 
 errors! {
-    /// Why series have no average with an error.
+    /// Reason why series have no average with an error.
     #[derive(Clone, Copy, Debug, PartialEq)]
     #[non_exhaustive]
     pub enum StatisticsError {
-        /// Fewer samples than are needed.
+        /// There are fewer samples than needed.
         TooFew {
             /// Number of samples in all series.
             found: usize,
             /// Number of samples needed.
             needed: usize,
-        } => "{found} samples, where {needed} are needed",
-        /// A sample that is infinite or NaN.
+        } => "got {found} samples: at least {needed} are needed",
+        /// A sample is infinite or NaN.
         NotFinite {
-            /// Number of its series.
+            /// Index of the series with the sample.
             series: usize,
-            /// Place of the sample in the series.
+            /// Index of the sample in the series.
             index: usize,
         } => "sample {index} of series {series} is not finite",
-        /// The series are too short for their correlations: their samples are alike over
-        /// all lags that could be looked at, or less than eight times the correlation time
-        /// is there.
+        /// The series are too short for their correlations: samples are correlated over all lags
+        /// that were examined, or the series are shorter than eight correlation times.
         Correlated {
             /// Number of samples in all series.
             samples: usize,
-            /// Largest lag that was looked at, or the correlation time, in samples.
+            /// Largest lag that was examined, or the correlation time, in samples.
             lag: usize,
-        } => "{samples} samples that are correlated over {lag} of them: the series are too short",
-        /// No transient that ends within the first half of the series.
-        Unsettled => "no transient ends within the first half of the series: it has not settled",
+        } => "{samples} samples are too few: they are correlated over {lag} samples",
+        /// The transient does not end within the first half of the series.
+        Unsettled => "the transient does not end within the first half of the series: sample for \
+            a longer time",
     }
 }
 

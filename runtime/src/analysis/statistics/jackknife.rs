@@ -1,19 +1,19 @@
-//! Errors of what is no average.
+//! Standard errors of quantities that are not plain averages, by the jackknife.
 
 use super::StatisticsError;
 
 /// A value and its standard error.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Estimate {
-    /// The value.
+    /// The estimated value.
     pub value: f64,
     /// Standard error of the value.
     pub error: f64,
 }
 
 impl Estimate {
-    /// Returns the mean of independent values with its standard error √(s²/k), s² being their
-    /// variance. The error of one value alone is NaN.
+    /// Returns the mean of independent values with its standard error √(s²/k), where s² is the
+    /// variance of the k values. The error of a single value is NaN.
     #[must_use]
     pub fn of_independent(values: &[f64]) -> Self {
         let count = values.len() as f64;
@@ -26,15 +26,16 @@ impl Estimate {
     }
 }
 
-/// The error of any function of an ensemble, by leaving out one of its `members` after
-/// the other: √((k − 1)/k Σ (f_i − f̄)²).
+/// Returns the value of any function of an ensemble with its jackknife error, computed by leaving
+/// out each of its `members` in turn: √((k − 1)/k Σ (f_i − f̄)²).
 ///
-/// `function(None)` is of all members, `function(Some(i))` of all but one. Members are
-/// independent of each other: starts, or blocks much longer than the correlation time.
+/// `function(None)` is the value for all members, `function(Some(i))` for all except member i.
+/// Members must be independent of each other: starts, or blocks much longer than the correlation
+/// time.
 ///
 /// # Errors
-/// [`StatisticsError::TooFew`] of fewer than four members, `NotFinite` where the function
-/// has no finite value.
+/// [`StatisticsError::TooFew`] for fewer than four members, `NotFinite` if the function returns a
+/// value that is not finite.
 ///
 /// # Examples
 ///

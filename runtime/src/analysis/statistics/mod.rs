@@ -1,14 +1,14 @@
-//! Time averages of fluctuating motions, with error bars that can be trusted.
+//! Time averages of fluctuating motions, with reliable error bars.
 //!
-//! Successive samples of a motion are alike: n of them are worth n/τ independent
-//! ones. [`Average`] finds τ from the autocorrelation, [`Blocking`] reaches the same
-//! error by another way, as a check. Both take several series, from
+//! Successive samples of a motion are correlated: n of them have the error of n/τ independent ones,
+//! with the autocorrelation time τ. [`Average`] computes τ from the autocorrelation; [`Blocking`]
+//! computes the same error by another method, as a check. Both accept several series, from
 //! independent starts, as one ensemble with a common mean.
 //!
-//! An average belongs to a steady state: [`transient`] finds where that begins, and
-//! [`Drift`] tests that it has begun at all. Both can say no: a series that has not
-//! settled, or that is too short for its own correlations, is an error and no number.
-//! [`jackknife`] gives bars to what is no average: ratios, slopes, skewness.
+//! An average needs a steady state: [`transient`] finds where it begins, and [`Drift`] tests that
+//! it has begun. Series that have not settled, or that are too short for their correlations, give
+//! an error instead of a number. [`jackknife`] gives errors of quantities that are not averages:
+//! ratios, slopes, skewness.
 
 mod average;
 mod blocking;
@@ -22,7 +22,8 @@ pub use error::StatisticsError;
 pub use jackknife::{Estimate, jackknife};
 pub use transient::{Drift, transient};
 
-/// Checks series, and returns the number of their samples.
+/// Returns the number of samples of all series; an error if it is below `needed` or if a sample is
+/// not finite.
 fn check<S: AsRef<[f64]>>(series: &[S], needed: usize) -> Result<usize, StatisticsError> {
     let mut found = 0;
     for (number, values) in series.iter().enumerate() {
@@ -41,7 +42,7 @@ fn check<S: AsRef<[f64]>>(series: &[S], needed: usize) -> Result<usize, Statisti
     Ok(found)
 }
 
-/// Mean of all samples.
+/// Returns the mean of all samples.
 fn mean<S: AsRef<[f64]>>(series: &[S], samples: usize) -> f64 {
     let sums = series
         .iter()

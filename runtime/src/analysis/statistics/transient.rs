@@ -1,21 +1,23 @@
-//! Where a steady state begins, and the test that it has begun.
+//! Start of a steady state: where it begins in a series, and a test that it has begun.
 
 use super::average::Average;
 use super::{StatisticsError, check};
 
-/// Samples that are averaged before a transient is looked for.
+/// Number of samples that are averaged before the transient is searched for.
 const BATCH: usize = 5;
 
-/// Number of samples to leave out before the state is steady: the number d, at most
-/// half of them, that makes the standard error of the mean of the rest least, Σ_{i ≥ d} (x_i − x̄)²/(n − d)²,
-/// by batches of five samples (MSER-5: K. P. White, *Simulation* 69, 323, 1997).
+/// Returns the number of samples to leave out before the state is steady: the number d, at most
+/// half of the n samples, for which the standard error of the mean of the others is smallest, Σ_{i
+/// ≥ d} (x_i − x̄)²/(n − d)². It works on means of five samples each (MSER-5: K. P. White,
+/// *Simulation* 69, 323, 1997).
 ///
-/// Take the energy, averaged over independent starts: its transient is the longest, and
-/// the average shows it best.
+/// The energy averaged over independent starts is a good series for this: its transient is the
+/// longest, and averaging shows it most clearly.
 ///
 /// # Errors
-/// [`StatisticsError::Unsettled`] where the least lies at the half: the series is still
-/// in its transient; or fewer than 50 samples, or one that is not finite.
+/// [`StatisticsError::Unsettled`] if the smallest error is at half of the samples, so that the
+/// series is still in its transient; `TooFew` for fewer than 50 samples, `NotFinite` if one is not
+/// finite.
 ///
 /// # Examples
 ///
@@ -36,7 +38,7 @@ pub fn transient(series: &[f64]) -> Result<usize, StatisticsError> {
         .collect();
     let half = batches.len() / 2;
     let mut least = (f64::INFINITY, 0);
-    // Welford's sums, from the end, so that nothing cancels.
+    // Computes Welford's sums from the end, so that nothing cancels.
     let (mut mean, mut squares) = (0.0, 0.0);
     for (start, value) in batches.iter().enumerate().rev() {
         let number = (batches.len() - start) as f64;
@@ -70,18 +72,19 @@ pub fn transient(series: &[f64]) -> Result<usize, StatisticsError> {
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Drift {
-    /// Mean of the second half less that of the first.
+    /// Mean of the second half minus that of the first.
     pub change: f64,
     /// Standard error of the change.
     pub error: f64,
 }
 
 impl Drift {
-    /// The drift of series of one quantity at even times, each from a start of its own.
+    /// Returns the drift of series of one quantity, sampled at equal intervals. The series are from
+    /// independent starts.
     ///
     /// # Errors
-    /// As [`Average::of`] of each half: what is too short to have an average is not
-    /// steady either.
+    /// As [`Average::of`] for each half: a series that is too short for an average is not steady
+    /// either.
     pub fn of<S: AsRef<[f64]>>(series: &[S]) -> Result<Self, StatisticsError> {
         let halves = series.iter().map(|values| {
             let values = values.as_ref();
@@ -95,7 +98,7 @@ impl Drift {
         })
     }
 
-    /// True if the change is no larger than so many of its standard errors.
+    /// Returns true if the absolute change is at most `bars` standard errors.
     pub fn is_within(&self, bars: f64) -> bool {
         self.change.abs() <= bars * self.error
     }

@@ -1,4 +1,4 @@
-//! The motion of everything that is not small.
+//! Bounds of the coordinates that are not small differences, for random states.
 
 use core::ops::ControlFlow;
 
@@ -7,19 +7,19 @@ use super::{ComparedForms, small_coordinates};
 use crate::integrate::{Integrator, Options, Verner98};
 use crate::system::State;
 
-/// Bounds of the background: random states have every coordinate and rate
-/// within them, with equal probability. One number for each symmetric
-/// coordinate; those of small differences are not used.
+/// Bounds of the background, the coordinates that are not small. In random states, each coordinate
+/// and rate is uniformly distributed within its bounds. There is one bound per symmetric
+/// coordinate; the bounds of small differences are not used.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Background {
-    /// Largest absolute angles, rad.
+    /// Largest absolute values of the coordinates, rad.
     pub angles: Vec<f64>,
-    /// Largest absolute rates, rad/s.
+    /// Largest absolute values of the rates, rad/s.
     pub rates: Vec<f64>,
 }
 
 impl Background {
-    /// Equal bounds for every coordinate of a model: `angle` in rad, `rate` in rad/s.
+    /// Returns equal bounds for all coordinates of a model: `angle` in rad, `rate` in rad/s.
     #[must_use]
     pub fn uniform(model: &impl ComparedForms, angle: f64, rate: f64) -> Self {
         let n = model.coordinates();
@@ -29,9 +29,9 @@ impl Background {
         }
     }
 
-    /// Bounds of the motion in the time `duration` (s) after a release from
-    /// rest at the symmetric coordinates `release` (rad) with all small
-    /// differences at zero: the largest absolute values at the ends of steps.
+    /// Returns as bounds the largest absolute values, at the ends of integration steps, of the
+    /// motion during `duration` (s) after a release from rest at the symmetric coordinates
+    /// `release` (rad), where all small differences are set to zero.
     ///
     /// # Errors
     ///

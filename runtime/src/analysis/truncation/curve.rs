@@ -1,44 +1,44 @@
-//! Relative error of W against amplitude.
+//! Relative error of approximations of the energy transfer W, as a function of the amplitude.
 
 use core::fmt;
 
 use crate::transfer_forms::TransferForm;
 
-/// The error of each truncated form of W into one sector, by amplitude.
+/// Relative errors of truncated forms of the energy transfer W into one sector, by amplitude.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ErrorCurve {
-    /// Name of the sector that W flows into.
+    /// Name of the sector into which W transfers energy.
     pub receiver: String,
     /// The truncated forms, in the order of [`ErrorPoint::errors`].
     pub forms: Vec<TransferForm>,
-    /// The points by growing amplitude; amplitudes at which no energy flows are
-    /// left out.
+    /// The points in order of amplitude; amplitudes at which no energy flows are left out.
     pub points: Vec<ErrorPoint>,
 }
 
-/// The error of each form over many states of about one amplitude.
+/// Relative error of each truncated form over many states of about the same amplitude.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ErrorPoint {
-    /// Amplitude, rad.
+    /// Amplitude of the states, rad.
     pub amplitude: f64,
     /// Number of states.
     pub states: u64,
-    /// Rms of (W − W exact) over rms of W exact.
+    /// For each form, the root mean square of its error W − W_exact, divided by the root mean
+    /// square of W_exact.
     pub errors: Vec<f64>,
 }
 
 impl ErrorCurve {
-    /// Error of the form with this index in [`forms`](Self::forms) at every
-    /// point; NaN where there is no such form.
+    /// Returns the errors of the form with this index in [`forms`](Self::forms), one for each
+    /// point; NaN if there is no such form.
     #[must_use]
     pub fn errors(&self, form: usize) -> Vec<f64> {
         let error = |point: &ErrorPoint| point.errors.get(form).copied().unwrap_or(f64::NAN);
         self.points.iter().map(error).collect()
     }
 
-    /// Amplitude at which the form with this index in [`forms`](Self::forms)
-    /// first passes `level`, between two points by a power law. None without
-    /// points or such a form.
+    /// Returns the amplitude at which the error of the form with this index in
+    /// [`forms`](Self::forms) first exceeds `level`, interpolated between two points by a power
+    /// law. `None` if there are no points or no such form.
     #[must_use]
     pub fn crossing(&self, form: usize, level: f64) -> Option<LevelCrossing> {
         let mut previous: Option<(f64, f64)> = None;
@@ -48,7 +48,7 @@ impl ErrorCurve {
                 let Some(below) = previous else {
                     return Some(LevelCrossing::Below(here.0));
                 };
-                // A form may be exact up to here: then there is no power law.
+                // The error may be zero at the point below, where no power law applies.
                 let part = if below.1 > 0.0 {
                     (level / below.1).ln() / (here.1 / below.1).ln()
                 } else {
@@ -62,20 +62,19 @@ impl ErrorCurve {
     }
 }
 
-/// Amplitude at which an error passes a level, as the amplitude grows.
+/// Amplitude at which a growing error exceeds a level.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum LevelCrossing {
-    /// Above the level from the smallest amplitude on, which is given, rad.
+    /// The error exceeds the level already at the smallest amplitude, which is given in rad.
     Below(f64),
-    /// The error passes the level at this amplitude first, rad.
+    /// The error first exceeds the level at this amplitude, in rad.
     At(f64),
-    /// Not above the level up to the largest amplitude, which is given, rad.
+    /// The error does not exceed the level up to the largest amplitude, which is given in rad.
     Above(f64),
 }
 
 impl LevelCrossing {
-    /// The amplitude, rad; none where the level is not passed in the range
-    /// looked at.
+    /// Returns the amplitude, rad; `None` if it is outside the range examined.
     #[must_use]
     pub fn amplitude(self) -> Option<f64> {
         match self {
@@ -87,7 +86,7 @@ impl LevelCrossing {
 
 impl fmt::Display for LevelCrossing {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        // Through `pad`, so that a width given by the caller is kept.
+        // Uses `pad`, which respects the width that the caller gives.
         f.pad(&match self {
             Self::Below(amplitude) => format!("< {amplitude:.3}"),
             Self::At(amplitude) => format!("{amplitude:.3}"),
@@ -96,13 +95,13 @@ impl fmt::Display for LevelCrossing {
     }
 }
 
-/// Sums of squares over states, for every sector.
+/// Sums of squares of W and of its errors over states, for each sector.
 #[derive(Clone, Debug)]
 pub(super) struct SquareSums {
     states: u64,
-    /// Sums for W exact, by sector.
+    /// Sums of the squares of the exact W, by sector.
     exact: Vec<f64>,
-    /// Sums for the errors, by form, then by sector.
+    /// Sums of the squares of the errors, by truncated form, then by sector.
     errors: Vec<f64>,
 }
 
@@ -115,7 +114,8 @@ impl SquareSums {
         }
     }
 
-    /// A state: W exact by sector, and of the forms one after the other.
+    /// Adds a state: `exact` is the exact W by sector, `forms` is the W of all truncated forms, by
+    /// form, then by sector.
     pub(super) fn add(&mut self, exact: &[f64], forms: &[f64]) {
         self.states += 1;
         for (sum, exact) in self.exact.iter_mut().zip(exact) {
@@ -127,7 +127,7 @@ impl SquareSums {
         }
     }
 
-    /// Adds the states of other sums.
+    /// Adds all states of another set of sums.
     pub(super) fn append(&mut self, others: &Self) {
         self.states += others.states;
         let pairs = [
@@ -142,7 +142,7 @@ impl SquareSums {
     }
 }
 
-/// One curve for each receiver from sums at growing amplitudes.
+/// Returns one error curve per receiving sector, from the sums at ascending amplitudes.
 pub(super) fn curves(
     receivers: &[String],
     forms: &[TransferForm],
@@ -210,7 +210,7 @@ mod tests {
     fn errors_go_to_their_form_and_sector() {
         let forms = [TransferForm::Angle(1), TransferForm::Amplitude(2)];
         let mut sums = SquareSums::new(2, 2);
-        // Two states, W exact = 3 and 4 into the first sector, none into the second.
+        // Two states: W exact is 3 and 4 into the first sector, zero into the second.
         sums.add(&[3.0, 0.0], &[3.0, 0.0, 3.5, 1.0]);
         sums.add(&[4.0, 0.0], &[4.0, 0.0, 4.0, 1.0]);
         let curves = curves(&["a", "b"].map(str::to_owned), &forms, &[(0.1, sums)]);

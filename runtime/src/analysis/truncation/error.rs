@@ -1,50 +1,50 @@
-//! Why there is no curve.
+//! Errors in the computation of the accuracy of approximations of W.
 
 use crate::errors::errors;
 use crate::integrate::IntegrationError;
 
 errors! {
-    /// Why the error of truncated forms could not be found.
+    /// Reason why the errors of the truncated forms of W could not be computed.
     #[derive(Clone, Debug, PartialEq)]
     #[non_exhaustive]
     pub enum TruncationError {
-        /// The model has no exact form of W to compare with.
+        /// The model has no exact form of the energy transfer W to compare with.
         NoExactForm => "the model has no exact form of W to compare with",
-        /// As many numbers as the model has coordinates are needed.
+        /// The number of values given is not the number of coordinates.
         Length {
-            /// The quantity that the numbers are.
+            /// Name of the quantity whose values were given.
             what: &'static str,
             /// Number of coordinates.
             expected: usize,
-            /// Number given.
+            /// Number of values given.
             found: usize,
-        } => "{what}: the model has {expected} coordinates, but got {found} numbers",
-        /// A number that is not usable: amplitudes and rates of sampling must be
-        /// positive, bounds not negative, all of them finite.
+        } => "{what} must have one number for each of the {expected} coordinates, but have {found}",
+        /// A value is invalid: amplitudes and sampling rates must be positive, bounds must not be
+        /// negative, and all must be finite.
         Value {
-            /// The quantity.
+            /// Name of the quantity.
             what: &'static str,
             /// Value of the quantity.
             value: f64,
         } => "{what} cannot be {value}",
-        /// Amplitudes do not grow.
+        /// The amplitudes are not ascending.
         Order {
             /// An amplitude, rad.
             before: f64,
-            /// The one after it, rad.
+            /// The next amplitude, which must be larger but is not, in rad.
             after: f64,
-        } => "amplitudes must grow, but {after} rad stands behind {before} rad",
-        /// The differences of a sector do not oscillate about the hanging tree, so
-        /// that they have no amplitude.
+        } => "amplitudes must ascend, but {after} rad follows {before} rad",
+        /// The differences of a sector do not oscillate about the hanging tree, so that their
+        /// amplitude is not defined.
         NoFrequency {
             /// Name of the sector.
             sector: String,
-            /// Mean square of its angular frequencies, 1/s².
+            /// Mean square of the angular frequencies of the differences, 1/s².
             square: f64,
         } => "the differences of sector `{sector}` do not oscillate: the mean square of their \
             angular frequencies is {square} 1/s²",
-        /// A motion could not be followed to its end.
-        Integration(error: IntegrationError<f64>) => "a motion was not followed to its end",
+        /// The integration of a motion failed.
+        Integration(error: IntegrationError<f64>) => "a motion could not be integrated to its end",
     }
 }
 
@@ -63,7 +63,7 @@ impl From<IntegrationError<f64>> for TruncationError {
     }
 }
 
-/// Passes numbers, one for each coordinate, of which none is negative.
+/// Checks that there is one number for each coordinate, and that none is negative.
 pub(super) fn check_bounds(
     what: &'static str,
     expected: usize,
@@ -79,7 +79,7 @@ pub(super) fn check_bounds(
     }
 }
 
-/// Passes numbers, one for each coordinate.
+/// Checks that there is one number for each coordinate.
 pub(super) fn check_length(
     what: &'static str,
     expected: usize,
@@ -96,7 +96,7 @@ pub(super) fn check_length(
     })
 }
 
-/// Passes a positive finite number.
+/// Checks that a number is positive and finite.
 pub(super) fn check_positive(what: &'static str, value: f64) -> Result<(), TruncationError> {
     if value.is_finite() && value > 0.0 {
         return Ok(());
@@ -104,7 +104,7 @@ pub(super) fn check_positive(what: &'static str, value: f64) -> Result<(), Trunc
     Err(TruncationError::Value { what, value })
 }
 
-/// Passes positive amplitudes that grow.
+/// Checks that amplitudes are positive and ascending.
 pub(super) fn check_amplitudes(amplitudes: &[f64]) -> Result<(), TruncationError> {
     for &amplitude in amplitudes {
         check_positive("an amplitude", amplitude)?;

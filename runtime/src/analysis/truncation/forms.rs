@@ -1,40 +1,42 @@
-//! What the errors of the forms of W are found from.
+//! Trees that have several forms of the energy transfer W to compare.
 
 use crate::model::Transfer;
 use crate::sectors::Sectors;
 use crate::system::{Ode, SymmetricCoordinates, Workspace};
-use crate::transfer::{Given, SymmetricTree, TransfersByForm};
+use crate::transfer::{StateInput, SymmetricTree, TransfersByForm};
 use crate::transfer_forms::{TransferForm, TransferForms};
 
-/// A tree with W in several forms, the exact one among them: compiled models that have
-/// [`TransferForms`], and any other tree as [`TreeForms`].
+/// A tree with several forms of the energy transfer W, one of them exact. Implemented by compiled
+/// models with [`TransferForms`], and any other tree as [`TreeForms`].
 ///
 /// States are symmetric coordinates (rad) with their rates (rad/s) or momenta (kg m²/s).
 pub trait ComparedForms {
     /// Returns the number of symmetric coordinates.
     fn coordinates(&self) -> usize;
 
-    /// Returns the forms.
+    /// Returns the forms of the energy transfer W that the tree has.
     fn forms(&self) -> Vec<TransferForm>;
 
-    /// Returns the names of the sectors that W flows into.
+    /// Returns the names of the sectors into which W transfers energy.
     fn receivers(&self) -> Vec<String>;
 
-    /// Returns the sectors whose differences truncated forms take for small.
+    /// Returns the sectors whose differences are small in truncated forms.
     fn truncated_sectors(&self) -> Vec<TruncatedSector>;
 
-    /// Returns the motion, as coordinates followed by their rates.
+    /// Returns the equations of motion, whose state is the symmetric coordinates followed by their
+    /// rates.
     fn motion(&self) -> impl Ode<f64>;
 
-    /// Returns a function that writes the momenta of coordinates and rates.
+    /// Returns a function that computes the momenta from the coordinates and their rates, and
+    /// writes them to its second argument.
     fn momenta(&self) -> impl FnMut([&[f64]; 2], &mut [f64]);
 
-    /// Returns a function that writes W (in W) into each receiver by the form of that number, at
-    /// coordinates and momenta.
+    /// Returns a function that computes the energy transfers W (watts) into all receiving sectors.
+    /// The function takes the index of a form, coordinates and momenta, and a slice for the results.
     fn transfers(&self) -> impl FnMut(usize, [&[f64]; 2], &mut [Transfer<f64>]);
 }
 
-/// A sector whose differences truncated forms of W take for small.
+/// A sector whose differences are small in truncated forms of W.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct TruncatedSector {
     /// Name of the sector.
@@ -80,14 +82,15 @@ impl<M: TransferForms<f64>> ComparedForms for M {
     }
 }
 
-/// Forms of W of a tree in numbers, without a compiler. All differences count as small.
+/// Forms of the energy transfer W of a tree given by numbers at run time. All differences count as
+/// small.
 #[derive(Clone, Debug)]
 pub struct TreeForms<'a, O> {
-    /// The tree.
+    /// The tree, with its symmetry.
     pub tree: &'a SymmetricTree<f64>,
-    /// The tree's motion in symmetric coordinates followed by their rates.
+    /// Equations of motion, whose state is the symmetric coordinates followed by their rates.
     pub motion: O,
-    /// The forms, of orders up to 15.
+    /// The forms of W to compare; truncated ones have orders up to 15.
     pub forms: Vec<TransferForm>,
 }
 
@@ -125,7 +128,7 @@ impl<O: Ode<f64>> ComparedForms for TreeForms<'_, O> {
     fn momenta(&self) -> impl FnMut([&[f64]; 2], &mut [f64]) {
         let mut workspace = Workspace::new();
         move |[coordinates, rates], momenta| {
-            let given = Given::Rates { coordinates, rates };
+            let given = StateInput::Rates { coordinates, rates };
             self.tree.momenta(&mut workspace, given, momenta);
         }
     }

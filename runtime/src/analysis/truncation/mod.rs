@@ -1,30 +1,30 @@
-//! Errors of the forms of an energy transfer W, against the amplitude of the
-//! coordinates that they take for small.
+//! Errors of approximate forms of the energy transfer W, as a function of the amplitude of the
+//! coordinates that they assume to be small.
 //!
-//! For any tree that has W in several forms ([`ComparedForms`]). Two averages,
-//! both rms of (W − W exact) over rms of W exact at one amplitude, sector by
-//! sector:
+//! They are computed for any tree that has several forms of W ([`ComparedForms`]). The error is,
+//! for each sector and amplitude, the rms of (W − W_exact) divided by the rms of W_exact, averaged
+//! in one of two ways:
 //!
-//! - [`PhaseAverage`]: over random states whose differences oscillate with that
-//!   amplitude. The states of two amplitudes differ in nothing else, so that
-//!   the curves are smooth and slopes show the order of the remainder.
-//! - [`AlongTrajectories`]: over exact motions, binned by the amplitude at the
-//!   instant. These are the states that matter, in the proportions in which
-//!   they occur.
+//! - [`PhaseAverage`]: over random states whose differences oscillate with that amplitude. The
+//!   states of two amplitudes differ in nothing else, so that the curves are smooth and their
+//!   slopes show the order of the remainder.
+//! - [`AlongTrajectories`]: over exact motions, with states binned by their amplitude. These are
+//!   the states that occur in motions, with the frequencies at which they occur.
 //!
-//! *Amplitude* of a state, in rad: the largest √(q² + (q̇/Ω)²) of all small
-//! differences q, with the frequency Ω of their sector ([`sector_frequencies`]).
-//! For a sector of one coordinate it is the amplitude of the linear oscillation
-//! through the state. Everything that is not small is the *background*
-//! ([`Background`]): the means, and differences that the forms keep whole.
+//! The *amplitude* of a state, in rad, is the largest √(q² + (q̇/Ω)²) of all small differences q,
+//! with the angular frequency Ω of their sector ([`sector_frequencies`]). For a sector of one
+//! coordinate it is the amplitude of the linear oscillation through the state. All coordinates that
+//! are not small are the *background* ([`Background`]): the means, and differences that the forms
+//! do not expand.
 //!
-//! An error is relative to W; W is of second order in the amplitude, so that a
-//! form through amplitude order N has an error of order N − 1 at least, and of
-//! order N where W has no odd orders (pairs without pairs in them).
+//! Errors are relative to W, which is of second order in the amplitude. Therefore a form up to the
+//! order N in the amplitude has an error of order N − 1 at least, and of order N if W has no odd
+//! orders (pairs that contain no pairs).
 //!
 //! # Examples
 //!
-//! The pendulum of the paper, 1 % and 10 % of W into its antiphase motion:
+//! This example finds the amplitude at which the error of W into the antiphase motion of the
+//! paper's pendulum reaches 1 %:
 //!
 #![cfg_attr(feature = "macros", doc = "```")]
 #![cfg_attr(not(feature = "macros"), doc = "```ignore")]
@@ -70,7 +70,7 @@ pub use motion::{amplitude, sector_frequencies};
 pub use phase_average::{CanonicalState, PhaseAverage};
 pub use trajectories::AlongTrajectories;
 
-/// `count` values from `low` to `high`, both positive, with equal ratios.
+/// Returns `count` values in geometric progression from `low` to `high`, both positive.
 #[must_use]
 pub fn logarithmic([low, high]: [f64; 2], count: usize) -> Vec<f64> {
     let last = count.saturating_sub(1).max(1) as f64;
@@ -79,7 +79,7 @@ pub fn logarithmic([low, high]: [f64; 2], count: usize) -> Vec<f64> {
         .collect()
 }
 
-/// Indices of the coordinates that are small differences.
+/// Returns the indices of the coordinates that are small differences.
 fn small_coordinates(model: &impl ComparedForms) -> Vec<usize> {
     let indices = model.truncated_sectors().into_iter();
     let indices = indices.flat_map(|small| small.coordinates);

@@ -6,14 +6,13 @@ use crate::model::Transfer;
 use crate::system::{Ode, Workspace};
 use crate::transfer_forms::TransferForm;
 
-/// Difference at which the restoring acceleration is measured, rad: emitted
-/// code keeps the digits of small differences, and their cubes are lost.
+/// Difference (rad) at which the restoring acceleration is measured. Emitted code keeps the digits
+/// of such small differences, and their cubes are below rounding.
 const SMALL: f64 = 1e-5;
 
-/// Angular frequency Ω of the [differences](ComparedForms::truncated_sectors) of each sector, in
-/// rad/s: the root of the mean square over its linear modes about the hanging tree, at
-/// the time zero. Ω² is −tr(∂q̈/∂q)/n over the sector's n differences, by central
-/// differences.
+/// Returns the angular frequency Ω (rad/s) of the [differences](ComparedForms::truncated_sectors)
+/// of each sector: the root of the mean square over its linear modes about the hanging tree, at
+/// time zero. Ω² is −tr(∂q̈/∂q)/n over the sector's n differences q, by central differences.
 ///
 /// # Errors
 ///
@@ -49,9 +48,9 @@ pub fn sector_frequencies(model: &impl ComparedForms) -> Result<Vec<f64>, Trunca
     Ok(frequencies)
 }
 
-/// Amplitude of a state in rad: the largest √(q² + (q̇/Ω)²) of all small
-/// differences, with the `frequencies` Ω that [`sector_frequencies`] gives.
-/// Coordinates that the slices lack count as zero.
+/// Returns the amplitude of a state in rad: the largest √(q² + (q̇/Ω)²) of all small differences q,
+/// with the `frequencies` Ω (rad/s) from [`sector_frequencies`]. Coordinates beyond the end of the
+/// slices count as zero.
 #[must_use]
 pub fn amplitude(
     small: &[TruncatedSector],
@@ -71,13 +70,15 @@ pub fn amplitude(
     })
 }
 
-/// A function of coordinates and rates that writes their momenta.
+/// A function that computes the momenta from the coordinates and their rates, and writes them to
+/// its second argument.
 type MomentaOf<'m> = Box<dyn FnMut([&[f64]; 2], &mut [f64]) + 'm>;
 
-/// A function of a form's number, coordinates and momenta that writes W.
+/// A function that computes the energy transfers W (watts) into all receivers, given the index of a
+/// form, and coordinates and momenta.
 type TransfersOf<'m> = Box<dyn FnMut(usize, [&[f64]; 2], &mut [Transfer<f64>]) + 'm>;
 
-/// Room for all forms of W at one state.
+/// Evaluates all forms of W at a state, and stores the results.
 pub(super) struct Powers<'m> {
     momenta_of: MomentaOf<'m>,
     transfers_of: TransfersOf<'m>,
@@ -88,9 +89,9 @@ pub(super) struct Powers<'m> {
     reference: usize,
     momenta: Vec<f64>,
     found: Vec<Transfer<f64>>,
-    /// W exact, by sector.
+    /// W exact (watts), by sector.
     pub(super) exact: Vec<f64>,
-    /// W of the truncated forms, by form, then by sector.
+    /// W (watts) by the truncated forms, by form, then by sector.
     pub(super) truncated: Vec<f64>,
 }
 
@@ -114,12 +115,12 @@ impl<'m> Powers<'m> {
         })
     }
 
-    /// The truncated forms.
+    /// Returns the truncated forms.
     pub(super) fn forms(&self) -> Vec<TransferForm> {
         self.indices.iter().map(|&form| self.forms[form]).collect()
     }
 
-    /// Evaluates all forms at symmetric coordinates and their rates.
+    /// Evaluates all forms of W at symmetric coordinates (rad) and their rates (rad/s).
     pub(super) fn evaluate(&mut self, coordinates: &[f64], rates: &[f64]) {
         (self.momenta_of)([coordinates, rates], &mut self.momenta);
         let state = [coordinates, &self.momenta];

@@ -1,4 +1,4 @@
-//! Errors over states with random phases.
+//! Errors of approximations of W over states with random phases.
 
 use core::f64::consts::PI;
 
@@ -10,23 +10,22 @@ use super::{ComparedForms, small_coordinates};
 use crate::analysis::random::Random;
 use crate::ensemble::Ensemble;
 
-/// Relative error over random states: the background anywhere within its
-/// bounds, and every small difference in an oscillation of the amplitude asked
-/// for, with the frequency of its sector and at a random phase of its own.
+/// Settings for the relative error of approximations of W over random states. The coordinates that
+/// are not small are random within their bounds. Each small difference is at a random phase of an
+/// oscillation with the given amplitude and the frequency of its sector.
 ///
-/// Each call takes the same states, and so do all amplitudes but for the
-/// amplitude. Cost: as many evaluations of every form as there are states and
-/// amplitudes, on all cores.
+/// Each call uses the same states, and states of two amplitudes differ only in the amplitude. The
+/// cost is one evaluation of each form per state and amplitude, distributed to all cores.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PhaseAverage {
-    /// Amplitudes, rad, positive and growing; [`logarithmic`](super::logarithmic)
-    /// makes some.
+    /// Amplitudes in rad, positive and ascending; [`logarithmic`](super::logarithmic) returns a
+    /// suitable list.
     pub amplitudes: Vec<f64>,
     /// Number of states at each amplitude.
     pub states: usize,
     /// Seed of the random numbers.
     pub seed: u64,
-    /// The motion of everything that is not small.
+    /// Bounds of the coordinates that are not small.
     pub background: Background,
 }
 
@@ -34,12 +33,12 @@ pub struct PhaseAverage {
 pub type CanonicalState = (Vec<f64>, Vec<f64>);
 
 impl PhaseAverage {
-    /// The error of every truncated form, one curve for each receiver.
+    /// Returns the errors of all truncated forms of W, one curve per receiving sector.
     ///
     /// # Errors
     ///
-    /// [`TruncationError`]: amplitudes or bounds that make no sense, a model
-    /// without the exact form, differences that do not oscillate.
+    /// [`TruncationError`] if amplitudes or bounds are invalid, if the model lacks the exact form,
+    /// or if differences do not oscillate.
     pub fn curves(
         &self,
         model: &(impl ComparedForms + Sync),
@@ -65,8 +64,8 @@ impl PhaseAverage {
         Ok(curves(&receivers, &forms, &sums))
     }
 
-    /// The states of one amplitude (rad) in canonical variables: what a program
-    /// that measures the cost of the forms evaluates them at.
+    /// Returns the states of one amplitude (rad) in canonical variables, for programs that measure
+    /// the cost of evaluating the forms.
     ///
     /// # Errors
     ///
@@ -91,8 +90,7 @@ impl PhaseAverage {
         Ok(unit.chunks_exact(2 * n).map(canonical).collect())
     }
 
-    /// States of the amplitude 1 rad, coordinates and rates of one after those
-    /// of the other.
+    /// Returns states whose amplitude is 1 rad: for each state its coordinates, then its rates.
     fn unit_states(&self, model: &impl ComparedForms) -> Result<Vec<f64>, TruncationError> {
         let n = model.coordinates();
         let Background { angles, rates } = &self.background;
@@ -123,7 +121,7 @@ impl PhaseAverage {
     }
 }
 
-/// A unit state with its small differences made `amplitude` times as large.
+/// Writes the state `unit`, with its small differences multiplied by `amplitude`, to `out`.
 fn scale(small: &[usize], unit: &[f64], amplitude: f64, out: &mut [f64]) {
     out.copy_from_slice(unit);
     for &index in small {

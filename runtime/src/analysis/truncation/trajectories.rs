@@ -1,4 +1,4 @@
-//! Errors along exact motions.
+//! Computes errors along exact motions.
 
 use super::curve::{ErrorCurve, SquareSums, curves};
 use super::error::{TruncationError, check_amplitudes, check_length, check_positive};
@@ -8,45 +8,42 @@ use crate::ensemble::Ensemble;
 use crate::integrate::{Integrator, Options, Tolerance, Verner98};
 use crate::system::State;
 
-/// Relative error along motions that are released from rest, by the amplitude
-/// at the instant.
+/// Settings for the relative error of approximations of W along motions that are released from
+/// rest. States are sorted by their amplitude.
 ///
-/// While differences are small they grow by the same factors from any
-/// disturbance, so that few releases would show each amplitude at few instants
-/// of the background: many disturbances with equal ratios
-/// ([`logarithmic`](super::logarithmic)) show it everywhere. Friction and drive
-/// of the model are part of the motion.
+/// Small differences grow by the same factors from any initial disturbance. With few disturbances,
+/// each amplitude would be reached at a few states of the other coordinates only; therefore use
+/// many disturbances in geometric progression ([`logarithmic`](super::logarithmic)). The motion
+/// includes the friction and drive of the model.
 ///
-/// Cost: an integration in symmetric coordinates by [`Verner98`] at the
-/// tolerance 1e-12 for each disturbance, and an evaluation of every form for
-/// each sample within the range; the disturbances on all cores.
+/// The cost for each disturbance is an integration in symmetric coordinates by [`Verner98`] at the
+/// tolerance 1e-12, and an evaluation of each form for each sample within the range of amplitudes.
+/// The disturbances run on all cores.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AlongTrajectories {
-    /// Symmetric coordinates at the release, rad. Small differences start from
-    /// the disturbances instead.
+    /// Symmetric coordinates at the release, in rad. The small differences among them are replaced
+    /// by the disturbances.
     pub release: Vec<f64>,
-    /// Value of every small difference at the start, rad, one motion each.
+    /// Initial values of all small differences, in rad; one motion is computed for each.
     pub disturbances: Vec<f64>,
-    /// Time followed after each release, s.
+    /// Duration of the motion after each release, s.
     pub duration: f64,
-    /// Samples per second.
+    /// Number of samples per second.
     pub sampling: f64,
-    /// Smallest and largest amplitude looked at, rad.
+    /// Smallest and largest amplitude of the range, rad.
     pub amplitudes: [f64; 2],
-    /// Number of bins with equal ratios between them.
+    /// Number of bins in geometric progression within that range.
     pub bins: usize,
 }
 
 impl AlongTrajectories {
-    /// The error of every truncated form, one curve for each receiver. A point
-    /// stands at the geometric centre of its bin; bins without samples are left
-    /// out.
+    /// Returns the errors of all truncated forms of W, one curve per receiving sector. Each point
+    /// is at the geometric centre of its bin; bins without samples are left out.
     ///
     /// # Errors
     ///
-    /// [`TruncationError`]: numbers that make no sense, a model without the
-    /// exact form, differences that do not oscillate, motions that cannot be
-    /// followed.
+    /// [`TruncationError`] if numbers are invalid, if the model lacks the exact form, if
+    /// differences do not oscillate, or if the integration fails.
     pub fn curves(
         &self,
         model: &(impl ComparedForms + Sync),
@@ -63,7 +60,7 @@ impl AlongTrajectories {
         let empty = SquareSums::new(receivers.len(), forms.len());
         let times = self.times();
         let options = Options {
-            // Differences keep their relative accuracy while they are small.
+            // Preserves the relative accuracy of differences while they are small.
             absolute: Tolerance::Uniform(1e-15),
             ..Options::with_tolerance(1e-12)
         };
@@ -81,7 +78,7 @@ impl AlongTrajectories {
                 let (coordinates, rates) = state.split_at(n);
                 let size = amplitude(&sectors, &frequencies, coordinates, rates);
                 let bin = ((size / low).ln() / per_bin).floor();
-                // Below the range it is negative, which the cast would make zero.
+                // Is negative below the range; the cast to an index would turn that into zero.
                 if bin >= 0.0
                     && let Some(sums) = bins.get_mut(bin as usize)
                 {
@@ -107,7 +104,7 @@ impl AlongTrajectories {
         Ok(curves(&receivers, &forms, &sums))
     }
 
-    /// Times of the samples.
+    /// Returns the times at which the motions are sampled, in s.
     fn times(&self) -> Vec<f64> {
         let samples = (self.duration * self.sampling).floor() as u64;
         (0..=samples)

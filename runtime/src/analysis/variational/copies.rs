@@ -1,20 +1,22 @@
-//! Copies that move in phase, and the two kinds of deviations from that.
+//! Groups of copies that move in phase, and the two kinds of deviations from such motions.
 
 use crate::sectors::{Sector, SectorCoordinate};
 use crate::system::{Ode, State};
 
-/// Largest part by which rates of copies differ, from rounding.
-const ALIKE: f64 = 1e-12;
+/// Largest relative difference between rates of copies that counts as rounding.
+const RATE_ROUNDING: f64 = 1e-12;
 
-/// Largest change of a component from a state to the one beside it.
-const BESIDE: f64 = 0.3;
+/// Largest change of a component between the start and the second state at which copies are
+/// compared.
+const LARGEST_CHANGE: f64 = 0.3;
 
-/// Copies, as the components of a state in which they are equal while they move in phase.
+/// Copies, described as groups of components of a state: the components of a group are equal while
+/// the copies move in phase.
 ///
-/// States in phase are an invariant subspace: a motion that starts in it stays there. Small
-/// deviations from such a motion are of two kinds, and neither drives the other: those that
-/// are equal in all copies, *within* the motions in phase, and differences between copies,
-/// *transverse* to them.
+/// States in phase are an invariant subspace: a motion that starts in it stays in it. Small
+/// deviations from such a motion are of two kinds, of which neither drives the other: those that
+/// are equal in all copies, *within* the subspace, and differences between copies, *transverse* to
+/// it.
 ///
 /// # Examples
 ///
@@ -28,7 +30,7 @@ const BESIDE: f64 = 0.3;
 /// assert_eq!(arms.groups()[..3], [[1, 4], [2, 5], [3, 6]]);
 /// let all = Copies::of_links(&parents, &[&[1, 4], &[2, 3]]).unwrap();
 /// assert_eq!(all.groups()[..2], [vec![1, 4], vec![2, 3, 5, 6]]);
-/// // An arm is no copy of a hand.
+/// // An arm is not a copy of a hand.
 /// assert_eq!(Copies::of_links(&parents, &[&[1, 2]]), None);
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -37,20 +39,22 @@ pub struct Copies {
 }
 
 impl Copies {
-    /// Returns the copies whose components are equal within each group. No component is in
-    /// two groups.
+    /// Creates copies from groups of indices of components. Components of a group are equal in
+    /// phase; no component may be in two groups.
     pub fn new(groups: Vec<Vec<usize>>) -> Self {
         Self { groups }
     }
 
-    /// Returns links that are copies of each other, with all that hangs from them, in a
-    /// state of angles followed by angular velocities. Each entry of `alike` is a set of such
-    /// links. `parents` are the links that each hangs from, before it in their order.
+    /// Returns the groups of components for links that are copies of each other, each with its
+    /// whole subtree. The state is the angles followed by the angular velocities. Each entry of
+    /// `alike` lists the indices of links that are copies of each other. `parents` has the index of
+    /// each link's parent, which is smaller than the link's.
     ///
-    /// None where one link of a set hangs from another, or does not carry as many links.
+    /// Returns `None` if one link of a list is in the subtree of another, or if their subtrees
+    /// differ in their number of links.
     pub fn of_links(parents: &[Option<usize>], alike: &[&[usize]]) -> Option<Self> {
         let links = parents.len();
-        // Each link by the first one that it is a copy of.
+        // For each link, the first link that it is a copy of.
         let mut first: Vec<usize> = (0..links).collect();
         for set in alike {
             let carried: Vec<Vec<usize>> = set.iter().map(|&link| carried(parents, link)).collect();
@@ -82,7 +86,8 @@ impl Copies {
         Some(Self::new(angles.iter().cloned().chain(rates).collect()))
     }
 
-    /// Returns the groups: of links the angles first, from the root on, then their rates.
+    /// Returns the groups. For links, the groups of angles come first, from the root on, then those
+    /// of angular velocities.
     pub fn groups(&self) -> &[Vec<usize>] {
         &self.groups
     }
@@ -96,8 +101,9 @@ impl Copies {
         beside.sum()
     }
 
-    /// Returns a deviation by which the first two copies differ: 1 and −1 in the first group,
-    /// of links the angles of the outermost.
+    /// Returns a deviation with `dimension` components in which the first two copies deviate in
+    /// opposite directions: 1 and −1 in the first group, which for links consists of the angles of
+    /// the topmost copies.
     pub fn opposite(&self, dimension: usize) -> Vec<f64> {
         let mut deviation = vec![0.0; dimension];
         let components = self.groups.first().into_iter().flatten();
@@ -107,8 +113,8 @@ impl Copies {
         deviation
     }
 
-    /// Returns the differences of the first two copies: of links, of their angles and of the
-    /// angles of all that hangs from them.
+    /// Returns the differences between the first two copies as a sector. For links these are the
+    /// differences of their angles, and of all angles in their subtrees.
     pub fn first_difference(&self) -> Sector {
         let angles = self.groups.iter().take(self.groups.len() / 2);
         let coordinates = angles.filter_map(|group| {
@@ -119,12 +125,12 @@ impl Copies {
         Sector::new("d".to_owned(), coordinates.collect())
     }
 
-    /// Returns true if the copies are in one state and move on alike in `system`, but for
-    /// rounding: there, and in a state beside it that moves, since friction that differs does
-    /// not show at rest. A state that is no number differs from none.
+    /// Returns true if the copies have equal states at the start and equal rates in `system`, to
+    /// rounding. Rates are compared at the start and at a second state with nonzero velocities,
+    /// because friction has no effect at rest. States with NaN count as equal.
     pub fn are_in_phase<O: Ode<f64> + ?Sized>(&self, system: &O, start: &State<f64>) -> bool {
         let mut moving = start.clone();
-        // Copies are moved alike, and all else each in its own way.
+        // Changes all copies by the same amount, and other components by different ones.
         let mut ways: Vec<usize> = (0..moving.values.len()).collect();
         for group in &self.groups {
             for &component in group {
@@ -134,13 +140,13 @@ impl Copies {
             }
         }
         for (value, way) in moving.values.iter_mut().zip(ways) {
-            *value += BESIDE * (1.0 + way as f64).sin();
+            *value += LARGEST_CHANGE * (1.0 + way as f64).sin();
         }
         let mut states = [start, &moving].into_iter();
-        states.all(|state| self.move_alike(system, state))
+        states.all(|state| self.move_identically(system, state))
     }
 
-    fn move_alike<O: Ode<f64> + ?Sized>(&self, system: &O, start: &State<f64>) -> bool {
+    fn move_identically<O: Ode<f64> + ?Sized>(&self, system: &O, start: &State<f64>) -> bool {
         let state = &start.values;
         let mut rates = vec![0.0; state.len()];
         system.rates(start.time, state, &mut rates);
@@ -153,14 +159,14 @@ impl Copies {
         let differ = |(&one, &other): (&usize, &usize)| {
             let own = difference(state, one, other);
             let both = own.zip(difference(&rates, one, other));
-            both.is_none_or(|(own, rate)| own > 0.0 || rate > ALIKE * size)
+            both.is_none_or(|(own, rate)| own > 0.0 || rate > RATE_ROUNDING * size)
         };
         let pairs = |group: &Vec<usize>| group.iter().zip(group.iter().skip(1)).any(differ);
         !self.groups.iter().any(pairs)
     }
 
-    /// Keeps what copies have in common: their mean in each of them, all else as it is.
-    /// Copies that are equal are left as they are, to the last bit.
+    /// Replaces the values of copies by their mean; other components stay unchanged. Values that
+    /// are equal keep all of their bits.
     pub(in crate::analysis) fn keep_common(&self, values: &mut [f64]) {
         for group in &self.groups {
             let mean = group.first().map(|&one| {
@@ -173,8 +179,8 @@ impl Copies {
         }
     }
 
-    /// Writes the differences of copies from their mean, all else zero. Differences of two copies
-    /// are opposite, to the last bit.
+    /// Writes the differences of copies from their mean, and zero for other components. The
+    /// differences of two copies are exactly opposite.
     pub(in crate::analysis) fn write_differences(&self, of: &[f64], differences: &mut [f64]) {
         differences.fill(0.0);
         for group in &self.groups {
@@ -185,8 +191,9 @@ impl Copies {
     }
 }
 
-/// The difference of a component from the mean of its group, from differences alone: nothing
-/// that copies share is rounded. NaN where there is no such component.
+/// Returns the difference between a component and the mean of its group. It is computed from
+/// differences of values, so that their common part causes no rounding. NaN if there is no such
+/// component.
 fn apart(values: &[f64], group: &[usize], one: usize) -> f64 {
     let at = |component: usize| values.get(component).copied().unwrap_or(f64::NAN);
     let all = group.iter().map(|&other| at(one) - at(other));
@@ -199,7 +206,7 @@ fn write(values: &mut [f64], component: usize, value: f64) {
     }
 }
 
-/// A link and all that hangs from it.
+/// Returns the indices of a link and of all links below it.
 fn carried(parents: &[Option<usize>], link: usize) -> Vec<usize> {
     let mut own = vec![link];
     for (link, parent) in parents.iter().enumerate() {

@@ -1,4 +1,4 @@
-//! Deviations from a motion that are followed for its exponents.
+//! Integration of deviations from a motion, from which Lyapunov exponents are computed.
 
 use core::ops::ControlFlow;
 
@@ -9,10 +9,11 @@ use super::{Copies, Linearised, Variational};
 use crate::integrate::{DenseStep, Integrator};
 use crate::system::State;
 
-/// Growth of a deviation after which all are made orthonormal again, within an interval too.
+/// Growth factor of a deviation after which all deviations are made orthonormal again, even before
+/// the end of an interval.
 const LARGEST_GROWTH: f64 = 1e3;
 
-/// Deviations that are looked at.
+/// The kind of deviations that are followed: all, in-phase ones, or differences between copies.
 #[derive(Clone, Copy)]
 pub(super) enum Deviations<'a> {
     All,
@@ -21,7 +22,8 @@ pub(super) enum Deviations<'a> {
 }
 
 impl Deviations<'_> {
-    /// Number of independent ones, in a system of a dimension.
+    /// Returns the number of independent deviations of this kind in a system of `dimension`
+    /// components.
     pub(super) fn count(self, dimension: usize) -> usize {
         match self {
             Self::All => dimension,
@@ -30,7 +32,7 @@ impl Deviations<'_> {
         }
     }
 
-    /// Takes from vectors of length `n` that follow each other what is no such deviation.
+    /// Projects consecutive vectors of length `n` onto the deviations of this kind.
     pub(super) fn keep(self, vectors: &mut [f64], n: usize) {
         for vector in vectors.chunks_mut(n) {
             match self {
@@ -44,15 +46,15 @@ impl Deviations<'_> {
         }
     }
 
-    /// Takes from the motion the difference that rounding has made between copies in phase.
+    /// Removes differences between copies that rounding has caused in an in-phase motion.
     pub(super) fn keep_motion(self, motion: &mut [f64]) {
         if let Self::Within(copies) | Self::Transverse(copies) = self {
             copies.keep_common(motion);
         }
     }
 
-    /// Takes from vectors of length `n` that follow each other what is no such deviation and
-    /// makes them orthonormal; returns the logarithms of the lengths that this takes out.
+    /// Projects consecutive vectors of length `n` onto the deviations of this kind and makes them
+    /// orthonormal. Returns the logarithms of the lengths by which they were divided.
     pub(super) fn orthonormalise(
         self,
         vectors: &mut [f64],
@@ -70,10 +72,11 @@ impl Deviations<'_> {
         Ok(lengths.iter().map(|length| length.ln()).collect())
     }
 
-    /// Follows orthonormal deviations from a motion to a time, where they are made orthonormal
-    /// again; returns the logarithms of their growth. Before that time too, wherever one has grown
-    /// by [`LARGEST_GROWTH`]: the rounding of a large part would pass the tolerance of those
-    /// beside it that are small, and no step would be short enough.
+    /// Integrates a motion and orthonormal deviations from it to the time `end`, makes the
+    /// deviations orthonormal again, and returns the logarithms of their growth factors. It also
+    /// makes them orthonormal earlier if one has grown by [`LARGEST_GROWTH`]: otherwise the
+    /// rounding of a large deviation would exceed the tolerance of small ones, and no step would be
+    /// short enough.
     pub(super) fn grow<L, M>(
         self,
         method: &M,

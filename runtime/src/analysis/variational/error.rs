@@ -1,40 +1,42 @@
-//! Why there are no exponents.
+//! Errors in the computation of Lyapunov exponents.
 
 use crate::errors::errors;
 use crate::integrate::IntegrationError;
 
 errors! {
-    /// Why there are no exponents.
+    /// Reason why the Lyapunov exponents of a motion could not be computed.
     #[derive(Clone, Debug, PartialEq)]
     #[non_exhaustive]
     pub enum LyapunovError {
-        /// None, or more than there are independent deviations.
+        /// The number of exponents requested is zero, or is larger than the number of independent
+        /// deviations.
         Count {
-            /// Exponents asked for.
+            /// Number of exponents requested.
             count: usize,
-            /// Number of independent deviations: for all of them the dimension of the system.
+            /// Number of independent deviations; if all deviations are followed, the dimension of
+            /// the system.
             deviations: usize,
-        } => "{count} exponents asked for, of {deviations} independent deviations: ask for 1 to \
-            {deviations}",
-        /// The interval is not positive and finite, or no interval counts.
+        } => "{count} exponents were requested, but there are {deviations} independent \
+            deviations: request 1 to {deviations}",
+        /// The interval is not positive and finite, or the number of intervals is zero.
         Interval {
-            /// The interval given.
+            /// The interval given, s.
             interval: f64,
             /// The number of intervals given.
             intervals: u32,
-        } => "{intervals} intervals of {interval} s make no mean: ask for at least one, of a \
-            positive time",
-        /// Exponents within motions in phase or transverse to them, of a start that is in
-        /// another state, or of links that are no copies.
-        NotInPhase => "the copies are not in one state at the start, or do not move on alike: \
-            start them in phase, or ask for the exponents of all deviations",
-        /// A deviation vanished, or left the range of numbers, between two
-        /// orthonormalisations: the interval is too long.
+        } => "cannot average over {intervals} intervals of {interval} s: use at least one \
+            interval, with a positive length",
+        /// Exponents of in-phase deviations or of differences between copies were requested, but
+        /// the start is not in phase, or the links are not copies of each other.
+        NotInPhase => "the copies do not start in phase (in equal states), or do not stay in \
+            phase: start them in phase, or request the exponents of all deviations",
+        /// A deviation became zero or overflowed between two orthonormalisations: the interval is
+        /// too long.
         Degenerate {
-            /// End of the interval.
+            /// Time at the end of the interval, s.
             time: f64,
-        } => "a deviation has no direction any more at t = {time}: the interval is too long",
-        /// The integration failed.
+        } => "a deviation became zero or too large at t = {time} s: use a shorter interval",
+        /// The integration of the motion failed.
         Integration(error: IntegrationError<f64>) => "{error}",
     }
 }

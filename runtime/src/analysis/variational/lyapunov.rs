@@ -1,4 +1,4 @@
-//! Lyapunov exponents.
+//! Computes Lyapunov exponents.
 
 use super::deviations::Deviations;
 use super::error::LyapunovError;
@@ -8,33 +8,33 @@ use crate::analysis::statistics::Estimate;
 use crate::integrate::Integrator;
 use crate::system::State;
 
-/// Computation of the exponents of a motion.
+/// Settings for computing the Lyapunov exponents of a motion.
 ///
-/// Deviations are integrated beside the motion over equal intervals, after each
-/// of which they are made orthonormal again, and before where one has grown a thousandfold; the
-/// mean logarithms of what that takes are the exponents, the largest first. Source: G. Benettin, L. Galgani,
-/// A. Giorgilli, J.-M. Strelcyn, *Lyapunov characteristic exponents for smooth
-/// dynamical systems*, Meccanica 15 (1980) 9–30.
+/// Deviations are integrated together with the motion over equal intervals. They are made
+/// orthonormal again after each interval, and earlier when one has grown by a factor of a thousand;
+/// the exponents are the mean logarithms of the lengths by which they are divided, per unit of
+/// time, the largest first. Source: G. Benettin, L. Galgani, A. Giorgilli, J.-M. Strelcyn,
+/// *Lyapunov characteristic exponents for smooth dynamical systems*, Meccanica 15 (1980) 9–30.
 ///
-/// Deviations start in general position, in the same directions at each call: a part of each
-/// grows as fast as anything does, also where the motion stays in an invariant subspace.
-/// Neither the motion nor the first of them depends on how many there are.
+/// Deviations start in general position, in the same directions at each call: a component of each
+/// grows as fast as the fastest deviation, even if the motion stays in an invariant subspace.
+/// Neither the motion nor the first deviation depends on the number of deviations.
 ///
 /// # Exponents within a subspace
 ///
-/// A motion of [`Copies`] in phase stays in phase, and small deviations from it are of two
-/// kinds that do not drive each other. [`within`](Self::within) are the exponents of those
-/// that keep the copies in phase: they tell whether the in-phase motion by itself is chaotic,
-/// and are those of the tree whose copies are one link. [`transverse`](Self::transverse) are
-/// those of the differences between copies: where the largest is positive, a difference grows
-/// and the copies part. Both together are the exponents of the whole, which
-/// [`spectrum`](Self::spectrum) gives. (J. C. Alexander, J. A. Yorke, Z. You, I. Kan, *Riddled
-/// basins*, International Journal of Bifurcation and Chaos 2 (1992) 795–813.)
+/// A motion of [`Copies`] in phase stays in phase, and small deviations from it are of two kinds
+/// that do not drive each other. [`within`](Self::within) computes the exponents of those that keep
+/// the copies in phase: they show whether the in-phase motion by itself is chaotic, and are those
+/// of the tree in which the copies are one link. [`transverse`](Self::transverse) computes those of
+/// the differences between copies: if the largest is positive, a difference grows and the copies
+/// separate. Both together are the exponents of the whole, which [`spectrum`](Self::spectrum)
+/// computes. (J. C. Alexander, J. A. Yorke, Z. You, I. Kan, *Riddled basins*, International Journal
+/// of Bifurcation and Chaos 2 (1992) 795–813.)
 ///
 /// # Examples
 ///
-/// The paper's pendulum in phase, which by itself is regular, and the difference that grows
-/// beside it:
+/// The paper's pendulum in phase, whose in-phase motion is regular while a difference between the
+/// children grows:
 ///
 #[cfg_attr(feature = "macros", doc = "```")]
 #[cfg_attr(not(feature = "macros"), doc = "```ignore")]
@@ -64,51 +64,53 @@ use crate::system::State;
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Lyapunov {
-    /// Number of exponents, from the largest on: at most the number of independent
-    /// deviations.
+    /// Number of exponents to compute, beginning with the largest; at most the number of
+    /// independent deviations.
     pub count: usize,
-    /// Time (s) between two orthonormalisations, positive, some inverse exponents at most.
+    /// Time between two orthonormalisations in s; it must be positive and should be at most a few
+    /// times the inverse of the exponents.
     pub interval: f64,
-    /// Intervals before the logarithms count: deviations turn into the
-    /// directions of growth meanwhile.
+    /// Number of initial intervals that are not counted, in which deviations turn to the directions
+    /// of growth.
     pub settling: u32,
-    /// Intervals whose logarithms count.
+    /// Number of intervals whose logarithms are counted.
     pub intervals: u32,
 }
 
 /// The exponents of a motion.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LyapunovSpectrum {
-    /// Exponents, in 1/s, the largest first: sorted, as a finite run may find two that are
-    /// near each other in either order.
+    /// Exponents in 1/s, the largest first. They are sorted because a finite run may find two
+    /// nearly equal exponents in either order.
     pub exponents: Vec<f64>,
-    /// Standard error of each, in the same order, from the spread of ten equal parts of the run:
-    /// what a longer run would narrow, if the parts were independent. NaN for
-    /// fewer than ten intervals.
+    /// Standard error of each exponent, in the same order, from the spread of ten equal parts of
+    /// the run. It is valid if the parts are independent, and decreases with the length of the run.
+    /// NaN for fewer than ten intervals.
     pub standard_errors: Vec<f64>,
     /// State at the end of the run.
     pub end: State<f64>,
 }
 
 impl LyapunovSpectrum {
-    /// Time in which an error grows from `error` to `allowed` at the mean rate
-    /// of the largest exponent; none if it does not grow.
+    /// Returns the time (s) in which an error grows from `error` to `allowed` at the rate of the
+    /// largest exponent; `None` if errors do not grow.
     pub fn horizon(&self, error: f64, allowed: f64) -> Option<f64> {
         let largest = *self.exponents.first()?;
         (largest > 0.0).then(|| (allowed / error).ln() / largest)
     }
 }
 
-/// Parts of a run whose spread gives the standard error.
+/// Number of parts of a run from whose spread the standard error is computed.
 const PARTS: usize = 10;
 
 impl Lyapunov {
-    /// Returns the exponents of the motion of `system` from `start`: of all deviations.
+    /// Returns the Lyapunov exponents of the motion of `system` that starts at `start`, for
+    /// deviations in all directions.
     ///
     /// # Errors
     ///
-    /// [`LyapunovError`]: a request that makes no sense, an interval that is
-    /// too long, a failed integration.
+    /// [`LyapunovError`] if the settings are invalid, if an interval is too long, or if the
+    /// integration fails.
     pub fn spectrum<L, M>(
         &self,
         method: &M,
@@ -122,12 +124,12 @@ impl Lyapunov {
         self.of(Deviations::All, method, system, start)
     }
 
-    /// Returns the exponents of a motion in phase within the motions in phase: of deviations
-    /// that are equal in all copies.
+    /// Returns the Lyapunov exponents of an in-phase motion for deviations that are equal in all
+    /// copies.
     ///
     /// # Errors
     ///
-    /// As [`spectrum`](Self::spectrum); [`LyapunovError::NotInPhase`].
+    /// As [`spectrum`](Self::spectrum), and [`LyapunovError::NotInPhase`].
     pub fn within<L, M>(
         &self,
         copies: &Copies,
@@ -142,8 +144,7 @@ impl Lyapunov {
         self.of(Deviations::Within(copies), method, system, start)
     }
 
-    /// Returns the exponents of a motion in phase out of the motions in phase: of
-    /// differences between the copies.
+    /// Returns the Lyapunov exponents of an in-phase motion for differences between the copies.
     ///
     /// # Errors
     ///
@@ -181,13 +182,13 @@ impl Lyapunov {
         } = *self;
         self.check(kept, system, start)?;
         let dimension = system.dimension();
-        // The motion is followed by itself, so that it is the same beside any deviations.
+        // Integrates the motion separately, so that it is the same with any number of deviations.
         let [alone, all] = [0, count].map(|deviations| Variational::new(system, deviations));
         let mut motion = start.clone();
         let mut random = Random::new(0);
         let parts = (0..count * dimension).map(|_| random.within(1.0));
         let mut vectors: Vec<f64> = parts.collect();
-        // One row of logarithms for each interval that counts.
+        // Logarithms of growth: one row for each interval that is counted.
         let mut logarithms: Vec<Vec<f64>> = Vec::new();
         let settling = u64::from(settling);
         kept.keep_motion(&mut motion.values);
@@ -209,7 +210,7 @@ impl Lyapunov {
         })
     }
 
-    /// Refuses what no exponents can be found of.
+    /// Checks that the settings are valid and suit the system and the start.
     fn check<L: Linearised<f64>>(
         &self,
         kept: Deviations<'_>,
@@ -233,18 +234,17 @@ impl Lyapunov {
             });
         }
         super::check_dimension(system, start)?;
-        match kept {
-            Deviations::Within(copies) | Deviations::Transverse(copies)
-                if !copies.are_in_phase(system, start) =>
-            {
-                Err(LyapunovError::NotInPhase)
+        let in_phase = match kept {
+            Deviations::All => true,
+            Deviations::Within(copies) | Deviations::Transverse(copies) => {
+                copies.are_in_phase(system, start)
             }
-            _ => Ok(()),
-        }
+        };
+        in_phase.then_some(()).ok_or(LyapunovError::NotInPhase)
     }
 
-    /// Mean rates of growth by rows of logarithms, one for each interval, and the standard
-    /// errors of these: the largest first.
+    /// Returns the mean growth rates (1/s) and their standard errors, from one row of logarithms
+    /// per interval. Sorted by rate, the largest first.
     fn averages(&self, logarithms: &[Vec<f64>]) -> (Vec<f64>, Vec<f64>) {
         let mean = |rows: &[Vec<f64>], index: usize| {
             let sum: f64 = rows.iter().map(|row| row[index]).sum();

@@ -1,12 +1,11 @@
 //! Variational equations: how small deviations from a motion grow.
 //!
-//! With y' = f(t, y) a small deviation v obeys v' = ∂f/∂y v. A [`Linearised`]
-//! system gives both; [`Variational`] is the system of the motion and any
-//! number of deviations, which every method integrates with its error control.
-//! [`flow_jacobian`] is the derivative of the end with respect to the start,
-//! [`trusted_until`] the time to which a given error stays small, and
-//! [`Lyapunov`] the mean rates of growth: of all deviations, or, where [`Copies`] move in
-//! phase, of those that keep them so and of those that do not.
+//! With y' = f(t, y) a small deviation v obeys v' = ∂f/∂y v. A [`Linearised`] system gives both;
+//! [`Variational`] is the system of the motion and any number of deviations, which every method
+//! integrates with its error control. [`flow_jacobian`] is the derivative of the end with respect
+//! to the start, [`trusted_until`] the time up to which a given error stays small, and [`Lyapunov`]
+//! computes mean rates of growth: of all deviations or, if [`Copies`] move in phase, separately of
+//! in-phase deviations and of differences between copies.
 //!
 //! The derivative comes from numbers that carry one, exact to rounding
 //! ([`linearised`] for models, [`ByTangents`] for other equations that are generic
@@ -59,7 +58,7 @@ pub use self::error::LyapunovError;
 pub use self::lyapunov::{Lyapunov, LyapunovSpectrum};
 pub use self::system::{ByTangents, Linearised, Tangent, Variational, WithDerivative, linearised};
 
-/// The start with one deviation along each component, of size one.
+/// Returns the start state followed by unit deviations along each of its components.
 fn with_unit_deviations<T: Real>(start: &State<T>) -> State<T> {
     let n = start.values.len();
     let mut values = start.values.clone();
@@ -80,12 +79,12 @@ fn check_dimension<T: Real, L: Ode<T>>(
     Err(InputError::Dimension { expected, found }.into())
 }
 
-/// Derivative of the state at `end` with respect to the state at the start:
-/// column j, the n numbers from n j on, is what the end moves by for a small
-/// unit of component j. With the columns comes the end itself.
+/// Returns the state at `end` (s) and its derivative with respect to the state at the start. The
+/// derivative is stored by columns: column j, the n numbers from index n·j on, is the derivative of
+/// the end by component j of the start.
 ///
-/// Cost: n deviations beside the motion. For a conservative system in canonical
-/// variables the matrix is symplectic.
+/// The cost is that of n deviations integrated with the motion. For a conservative system in
+/// canonical variables the matrix is symplectic.
 ///
 /// # Errors
 ///
@@ -110,14 +109,14 @@ where
     Ok((solution.state, columns))
 }
 
-/// The time to which an error of size `error` at the start stays below
-/// `allowed`, both in the Euclidean norm of the state and in the linear
-/// approximation; none if that is so up to `end`.
+/// Returns the time (s) up to which an error of size `error` at the start stays below `allowed`,
+/// both in the Euclidean norm of the state and in the linear approximation; `None` if it does so up
+/// to `end` (s).
 ///
-/// The horizon of a chaotic motion: with the error of one rounding, the time
-/// beyond which no digits are left, whatever the method and its tolerance. The
-/// growth is the Frobenius norm of the flow's derivative, which is that of the
-/// worst direction up to a factor √n; the time is the end of a step.
+/// This is the horizon of a chaotic motion: for an `error` of one rounding, it is the time after
+/// which no digits are left, for any method and tolerance. The growth is the Frobenius
+/// norm of the flow's derivative, which exceeds that of the worst direction by the factor √n at
+/// most; the time is the end of a step.
 ///
 /// # Errors
 ///

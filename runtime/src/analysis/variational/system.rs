@@ -1,4 +1,4 @@
-//! A motion and its deviations as one system.
+//! Systems that combine a motion with small deviations from it.
 
 use std::cell::RefCell;
 use std::fmt;
@@ -6,15 +6,15 @@ use std::fmt;
 use crate::scalar::{Dual, Scalar};
 use crate::system::{CastOde, Ode, Workspace};
 
-/// A system that knows how its rates change with the state.
+/// A system that can compute the derivatives of its rates by the state.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` does not know how its rates change with the state",
     note = "for a model: `linearised(AbsoluteAngles(&model))`; for equations that are generic over the scalar: `ByTangents::<_, Dual<f64, 1>>::new(&ode)`; otherwise `WithDerivative`"
 )]
 pub trait Linearised<T>: Ode<T> {
-    /// Writes f(t, y) to `rates` and ∂f/∂y v to `deviation_rates`, y being
-    /// `state` and v being `deviation`. All slices have the length of the
-    /// state. `workspace` is that of [`Ode::rates_with`].
+    /// Writes f(t, y) to `rates` and ∂f/∂y v to `deviation_rates`, where y is `state` and v is
+    /// `deviation`. All slices have the length of the state. `workspace` is used as in
+    /// [`Ode::rates_with`].
     fn linearised_rates(
         &self,
         workspace: &mut Workspace<T>,
@@ -26,12 +26,12 @@ pub trait Linearised<T>: Ode<T> {
     );
 }
 
-/// A number that carries one derivative: a dual number.
+/// A number that carries a derivative: a dual number.
 pub trait Tangent<T>: Scalar {
-    /// The number with this value and this derivative.
+    /// Returns the number with this value and this derivative.
     fn with_tangent(value: T, tangent: T) -> Self;
 
-    /// The value and the derivative.
+    /// Returns the value and the derivative.
     fn value_and_tangent(self) -> (T, T);
 }
 
@@ -48,18 +48,18 @@ impl<T: Scalar> Tangent<T> for Dual<T, 1> {
     }
 }
 
-/// A system linearised by numbers of type `D` that carry a derivative: exact to
-/// rounding. `tangents` are its equations in these numbers.
+/// A system that is linearised by evaluating its equations `tangents` in numbers of type `D`, which
+/// carry a derivative. The result is exact up to rounding.
 ///
-/// Not for several threads at once, since it holds a workspace: each thread
-/// makes its own.
+/// It cannot be shared between threads, since it contains a workspace: each thread needs its own
+/// value.
 pub struct ByTangents<O, D, Q = O> {
     ode: O,
     tangents: Q,
     memory: RefCell<TangentMemory<D>>,
 }
 
-/// Memory for one evaluation in numbers that carry derivatives.
+/// Buffers for one evaluation of the equations in numbers with derivatives.
 struct TangentMemory<D> {
     state: Vec<D>,
     rates: Vec<D>,
@@ -67,7 +67,7 @@ struct TangentMemory<D> {
 }
 
 impl<D: Scalar> TangentMemory<D> {
-    /// Memory for states of `dimension` numbers.
+    /// Creates buffers for states of `dimension` numbers.
     fn new(dimension: usize) -> Self {
         let zeros = vec![D::from_f64(0.0); dimension];
         Self {
@@ -78,12 +78,12 @@ impl<D: Scalar> TangentMemory<D> {
     }
 }
 
-/// Linearises a model in its coordinates, by its equations in dual numbers.
+/// Linearises a model in its coordinates, by evaluating its equations in dual numbers.
 ///
 /// # Examples
 ///
-/// An emitted model, as it is: its exponents, the derivative of a flow, and the
-/// time for which rounding errors stay small.
+/// This example computes, for an emitted model, its Lyapunov exponents, the derivative of a flow,
+/// and the time for which rounding errors stay small.
 ///
 #[cfg_attr(feature = "macros", doc = "```")]
 #[cfg_attr(not(feature = "macros"), doc = "```ignore")]
@@ -123,8 +123,7 @@ pub fn linearised<T: Scalar, O: CastOde<T, Dual<T, 1>>>(
 }
 
 impl<'a, O: ?Sized, D: Scalar> ByTangents<&'a O, D> {
-    /// Linearises equations that are generic over the scalar. For models see
-    /// [`linearised`].
+    /// Linearises equations that are generic over the scalar type. For models see [`linearised`].
     pub fn new(ode: &'a O) -> Self {
         Self::of_both(ode, ode)
     }
@@ -198,7 +197,7 @@ where
     }
 }
 
-/// A system and the derivative of its rates as a function of the caller.
+/// A system for which a function of the caller computes the derivative of the rates.
 #[derive(Clone, Copy)]
 pub struct WithDerivative<O, F> {
     ode: O,
@@ -206,8 +205,8 @@ pub struct WithDerivative<O, F> {
 }
 
 impl<O, F> WithDerivative<O, F> {
-    /// The system `ode`, for which `derivative(time, state, deviation, out)`
-    /// writes ∂f/∂y v.
+    /// Combines the system `ode` with `derivative(time, state, deviation, out)`, which writes ∂f/∂y
+    /// v to `out` for the deviation v.
     pub fn new<T>(ode: O, derivative: F) -> Self
     where
         O: Ode<T>,
@@ -258,8 +257,8 @@ impl<T: Copy, O: Ode<T>, F: Fn(T, &[T], &[T], &mut [T])> Linearised<T> for WithD
     }
 }
 
-/// A motion and deviations from it: the state is that of the system, followed
-/// by the deviations, one after the other.
+/// System of a motion and of deviations from it: its state is the state of `system`, followed by
+/// the deviations one after the other.
 #[derive(Clone, Copy, Debug)]
 pub struct Variational<'a, L: ?Sized> {
     system: &'a L,
@@ -267,7 +266,7 @@ pub struct Variational<'a, L: ?Sized> {
 }
 
 impl<'a, L: ?Sized> Variational<'a, L> {
-    /// `system` with so many deviations.
+    /// Returns the system of a motion of `system` and its deviations; `deviations` is their number.
     pub fn new(system: &'a L, deviations: usize) -> Self {
         Self { system, deviations }
     }

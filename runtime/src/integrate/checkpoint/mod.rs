@@ -1,6 +1,6 @@
-//! Motions that are laid down and taken up again.
+//! Checkpoints of motions: data from which a run continues with the same bits.
 
-// A sealed trait names the type.
+// The types are public because a sealed trait mentions them; users cannot reach this module.
 #![allow(unreachable_pub)]
 
 #[cfg(feature = "serde")]
@@ -12,17 +12,17 @@ use super::report::Report;
 use crate::scalar::Real;
 use crate::system::State;
 
-/// All that a [`Stepper`](super::Stepper) needs to go on with the same bits, in this
-/// process or another: [`Stepper::checkpoint`](super::Stepper::checkpoint) makes it,
-/// [`Integrator::resume`](super::Integrator::resume) takes it.
+/// Data from which a [`Stepper`](super::Stepper) continues with the same bits, in this process or
+/// another. [`Stepper::checkpoint`](super::Stepper::checkpoint) creates a checkpoint, and
+/// [`Integrator::resume`](super::Integrator::resume) continues from it.
 ///
-/// It holds the state, the account, and what the method remembers: length and error of
-/// the last step, rounding errors that compensated sums carry along, places on the grid of
-/// fixed steps, the rates that implicit methods extrapolate. The equations and the method,
-/// with its options, are the caller's to bring again.
+/// It contains the state, the report, and the memory of the method: length and error of the last
+/// step, rounding errors of compensated sums, positions on the grid of fixed steps, and the rates
+/// that implicit methods extrapolate. The caller must supply the equations and the method, with its
+/// options, again.
 ///
-/// With the feature `serde` it is data of serde. A format must keep the bits of its
-/// numbers. What is read is checked first: an error names the field that is none of a motion.
+/// With the feature `serde` a checkpoint can be serialised. The format must keep the bits of its
+/// numbers. Deserialised data are checked first: the error names the invalid field.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(
@@ -33,45 +33,46 @@ use crate::system::State;
     )
 )]
 pub struct Checkpoint<T> {
-    /// Time that the caller has reached, and what its rounding left over.
+    /// Time to which the caller has advanced the motion, and the accumulated rounding error of this
+    /// sum.
     pub(super) time: T,
     pub(super) residue: T,
-    /// The end of the last step.
+    /// State at the end of the last step.
     pub(super) reached: State<T>,
-    /// 1, or −1 backwards.
+    /// Direction of the run: 1 forwards, −1 backwards in time.
     pub(super) direction: T,
     pub(super) report: Report<T>,
     pub(super) memory: Vec<T>,
 }
 
 impl<T: Real> Checkpoint<T> {
-    /// Time of the state.
+    /// Returns the time of the state.
     pub fn time(&self) -> T {
         self.time
     }
 
-    /// The state.
+    /// Returns the state that the run has reached.
     pub fn state(&self) -> &[T] {
         &self.reached.values
     }
 
-    /// The account of all steps so far.
+    /// Returns the report of all steps so far.
     pub fn report(&self) -> &Report<T> {
         &self.report
     }
 }
 
-/// The memory of a method beside its state. A method names each number of it once,
-/// in one function that both saves and restores.
+/// Numbers that a method remembers from step to step, in addition to its state. The same function
+/// of the method enumerates them for saving and for restoring.
 #[derive(Debug)]
 pub struct Memory<T> {
     numbers: Vec<T>,
-    /// Number of those that are restored; none while they are saved.
+    /// How many numbers have been restored so far; `None` while numbers are being saved.
     restored: Option<usize>,
 }
 
 impl<T: Real> Memory<T> {
-    /// An empty one, to save to.
+    /// Creates an empty memory, for saving.
     pub(super) fn new() -> Self {
         Self {
             numbers: Vec::new(),
@@ -79,7 +80,7 @@ impl<T: Real> Memory<T> {
         }
     }
 
-    /// One to restore from.
+    /// Creates a memory from which the given numbers are restored.
     pub(super) fn of(numbers: &[T]) -> Self {
         Self {
             numbers: numbers.to_vec(),
@@ -87,18 +88,18 @@ impl<T: Real> Memory<T> {
         }
     }
 
-    /// The numbers saved.
+    /// Returns the saved numbers.
     pub(super) fn into_numbers(self) -> Vec<T> {
         self.numbers
     }
 
-    /// Number of numbers that there are, and of those that were asked for.
+    /// Returns the number of numbers in the memory, and how many the method has requested.
     pub(super) fn counts(&self) -> (usize, usize) {
         let found = self.numbers.len();
         (found, self.restored.unwrap_or(found))
     }
 
-    /// A number.
+    /// Saves or restores one number.
     pub(super) fn number(&mut self, value: &mut T) {
         match &mut self.restored {
             None => self.numbers.push(*value),
@@ -111,14 +112,14 @@ impl<T: Real> Memory<T> {
         }
     }
 
-    /// As many numbers as there are.
+    /// Saves or restores all numbers of a slice.
     pub(super) fn numbers(&mut self, values: &mut [T]) {
         for value in values {
             self.number(value);
         }
     }
 
-    /// A number that there may be.
+    /// Saves or restores a number that may be absent.
     pub(super) fn optional(&mut self, value: &mut Option<T>) {
         let (mut is_there, mut number) = (value.is_some(), value.unwrap_or(T::ZERO));
         self.flag(&mut is_there);
@@ -126,14 +127,15 @@ impl<T: Real> Memory<T> {
         *value = is_there.then_some(number);
     }
 
-    /// A truth.
+    /// Saves or restores a flag.
     pub(super) fn flag(&mut self, value: &mut bool) {
         let mut number = if *value { T::ONE } else { T::ZERO };
         self.number(&mut number);
         *value = number != T::ZERO;
     }
 
-    /// A whole number, at most `largest`, which files that lie do not exceed.
+    /// Saves or restores an integer. If a restored value is above `largest`, as in a damaged file,
+    /// the checkpoint becomes invalid.
     pub(super) fn count(&mut self, value: &mut usize, largest: usize) {
         let mut number = T::from_f64(*value as f64);
         self.number(&mut number);

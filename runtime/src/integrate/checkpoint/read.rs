@@ -1,4 +1,4 @@
-//! Checkpoints from files, which may say anything.
+//! Reading of checkpoints from files, with a check of every field.
 
 use alloc::vec::Vec;
 
@@ -8,7 +8,7 @@ use crate::integrate::report::Report;
 use crate::scalar::Real;
 use crate::system::State;
 
-/// A checkpoint as a file has it.
+/// Checkpoint as read from a file, before its fields are checked.
 #[derive(serde::Deserialize)]
 #[serde(rename = "Checkpoint")]
 pub struct Unchecked<T> {
@@ -21,20 +21,20 @@ pub struct Unchecked<T> {
 }
 
 errors! {
-    /// Why data are no checkpoint.
+    /// Reasons why data are not a valid checkpoint.
     #[derive(Clone, Copy, Debug, PartialEq, Eq)]
     pub enum CheckpointDataError {
-        /// A number that is none.
+        /// A number is infinite or NaN.
         NotFinite { field: &'static str } => "`{field}` is not finite",
-        /// Neither forwards nor backwards.
+        /// The direction is neither 1 nor −1.
         Direction => "`direction` must be 1 or -1",
-        /// More than can have been counted.
+        /// A count is larger than any run can reach.
         Count { field: &'static str, count: u64 }
-            => "`report.{field}` is {count}: no run has counted so far",
+            => "`report.{field}` is {count}: it is larger than in any real run",
     }
 }
 
-/// More steps and evaluations than are made in a thousand years.
+/// Upper limit of step and evaluation counts: more than a thousand years of computing.
 const MOST: u64 = 1 << 62;
 
 impl<T: Real> TryFrom<Unchecked<T>> for Checkpoint<T> {

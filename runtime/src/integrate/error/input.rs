@@ -1,37 +1,37 @@
-//! Requests that no method can answer.
+//! Errors for invalid arguments of an integration.
 
 use core::fmt;
 
 use crate::scalar::Real;
 
-/// A request that no method can answer; nothing was computed.
+/// Error: an argument of an integration is invalid. Nothing was computed.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum InputError<T> {
-    /// A tolerance is negative or not finite, or zero where it must not be.
+    /// A tolerance is negative, infinite or NaN, or zero although it must be positive.
     Tolerance {
-        /// `"relative"`, `"absolute"` or `"projection"`.
+        /// Name of the tolerance: `"relative"`, `"absolute"` or `"projection"`.
         name: &'static str,
         /// Index of the component; 0 for a uniform tolerance.
         component: usize,
         /// The tolerance given.
         value: T,
     },
-    /// Tolerances per component do not fit the state.
+    /// The number of tolerances differs from the number of components of the state.
     ToleranceCount {
-        /// `"relative"` or `"absolute"`.
+        /// Name of the tolerance: `"relative"` or `"absolute"`.
         name: &'static str,
         /// Number of components of the state.
         expected: usize,
         /// Number of tolerances given.
         found: usize,
     },
-    /// Relative and absolute tolerance of a component are both zero.
+    /// The relative and the absolute tolerance of a component are both zero.
     NoTolerance {
         /// Index of the component.
         component: usize,
     },
-    /// The tolerances of a component ask for digits that it does not have.
+    /// The tolerances of a component are so small that the error estimate would be rounding error.
     ToleranceBelowRounding {
         /// Index of the component.
         component: usize,
@@ -39,13 +39,13 @@ pub enum InputError<T> {
         relative: T,
         /// Absolute tolerance of the component.
         absolute: T,
-        /// The smallest relative tolerance that is of use to the method.
+        /// Smallest relative tolerance that the method can use.
         smallest: T,
     },
-    /// A step size in the options is negative or not finite, or zero where it
-    /// must not be.
+    /// A step size of the options is negative, infinite or NaN, or zero although it must be
+    /// positive.
     Step {
-        /// `"initial"`, `"longest"`, `"shortest"` or `"fixed"`.
+        /// Name of the option: `"initial"`, `"longest"`, `"shortest"` or `"fixed"`.
         name: &'static str,
         /// The step given.
         value: T,
@@ -55,60 +55,61 @@ pub enum InputError<T> {
         /// The step given.
         value: T,
     },
-    /// The shortest step allowed is longer than the longest.
+    /// The shortest step is longer than the longest step.
     StepRange {
         /// Shortest step given.
         shortest: T,
         /// Longest step given.
         longest: T,
     },
-    /// Beta is outside 0 to 0.2.
+    /// Beta, the proportional gain of the step-size control, is outside 0 to 0.2.
     Beta {
-        /// The beta given.
+        /// Value of beta.
         value: T,
     },
-    /// Beta is given to a method whose steps it has no part in.
+    /// Beta was given to a method that does not control the step size.
     BetaUnused {
-        /// The beta given.
+        /// Value of beta.
         value: T,
     },
-    /// A Taylor method of an order that there is not.
+    /// The order of the Taylor series is outside the supported range.
     Order {
-        /// The order given.
+        /// Requested order.
         order: usize,
-        /// The lowest order there is.
+        /// Lowest supported order.
         smallest: usize,
-        /// The highest.
+        /// Highest supported order.
         largest: usize,
     },
-    /// Taylor series are asked for where the equations give no coefficients.
+    /// The method needs Taylor coefficients, which these equations do not provide.
     NoSeries,
     /// The state has no components.
     EmptyState,
-    /// The state does not fit the equations.
+    /// The number of components of the state differs from the dimension of the equations.
     Dimension {
         /// Dimension of the equations.
         expected: usize,
         /// Number of components given.
         found: usize,
     },
-    /// A checkpoint of another method, or of other equations.
+    /// The checkpoint belongs to another method or to other equations.
     Checkpoint {
-        /// Numbers that this method remembers.
+        /// Number of values that this method stores in a checkpoint.
         expected: usize,
-        /// Numbers of the checkpoint.
+        /// Number of values in the checkpoint.
         found: usize,
     },
-    /// A system of an ensemble in lanes has not as many constants as the first
-    /// one: [`Pendulum`](crate::system::Pendulum) says what it takes.
+    /// A system of an ensemble in lanes has another number of constants than the first system. All
+    /// systems must convert the same number of constants; see
+    /// [`Model::cast`](crate::system::Model::cast).
     Constants {
-        /// Constants of the first one.
+        /// Number of constants of the first system.
         expected: usize,
-        /// Constants of this one.
+        /// Number of constants of this system.
         found: usize,
     },
-    /// A system of an ensemble in lanes differs from the first one in more than
-    /// constants: [`LaneOde::shape`](crate::system::LaneOde::shape).
+    /// A system of an ensemble in lanes differs from the first one in more than its constants; see
+    /// [`LaneOde::shape`](crate::system::LaneOde::shape).
     Shape,
     /// The starting time is infinite or NaN.
     StartTime {
@@ -122,25 +123,25 @@ pub enum InputError<T> {
         /// The value given.
         value: T,
     },
-    /// The time to integrate to is infinite or NaN.
+    /// The end time is infinite or NaN.
     EndTime {
         /// The time given.
         value: T,
     },
-    /// A time to sample at is infinite or NaN.
+    /// A sample time is infinite or NaN.
     Time {
-        /// Index among the times given.
+        /// Index of the sample time.
         index: usize,
         /// The time given.
         value: T,
     },
-    /// Times to sample at turn back: they must run one way from the start.
+    /// The sample times change direction: they must all increase, or all decrease, from the start.
     TimeOrder {
-        /// Index of the offending time.
+        /// Index of the first time out of order.
         index: usize,
-        /// The time before it, or the starting time.
+        /// Time of the previous sample; for the first sample, the start time.
         previous: T,
-        /// The offending time.
+        /// The time that is out of order.
         value: T,
     },
 }
@@ -257,7 +258,7 @@ const FINITE: &str = "finite";
 const POSITIVE: &str = "finite and positive";
 const NOT_NEGATIVE: &str = "finite and not negative";
 
-/// Writes that a number is not in its range.
+/// Writes the message that a number is out of its range.
 fn out_of_range(
     f: &mut fmt::Formatter<'_>,
     what: impl fmt::Display,

@@ -1,4 +1,4 @@
-//! Why an integration did not run, or did not reach its end.
+//! Errors of integrations: invalid arguments, and runs that end before their end time.
 
 mod input;
 
@@ -13,93 +13,91 @@ use crate::system::State;
 
 pub use input::InputError;
 
-/// Why an integration ended before its goal.
+/// Error: an integration ended before its end time.
 ///
-/// Every variant but [`Input`](Self::Input) carries the last state that was
-/// reached within the tolerances: a run can be continued from it.
+/// Every variant except [`Input`](Self::Input) carries the last state that was reached within the
+/// tolerances. A run can be continued from it.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum IntegrationError<T> {
-    /// The request cannot be answered; nothing was computed.
+    /// An argument is invalid. Nothing was computed.
     Input(InputError<T>),
-    /// The right-hand side, or the state within a step, became infinite or
-    /// NaN.
+    /// The right-hand side, or the state within a step, became infinite or NaN.
     NonFinite {
-        /// Time of the evaluation, in general inside a step.
+        /// Time of the evaluation, usually inside a step.
         time: T,
         /// State at which the rates were evaluated.
         values: Vec<T>,
         /// The last accepted state.
         last: State<T>,
-        /// Account of the run so far.
+        /// Report of the run so far.
         report: Report<T>,
     },
-    /// The tolerances ask for a step below the shortest allowed.
+    /// The tolerances require a step below the shortest step.
     StepTooSmall {
-        /// Length of the step asked for.
+        /// Length of the required step.
         step: T,
-        /// Shortest step allowed: the option, or what the rounding of the time
-        /// leaves.
+        /// Shortest step: the option, or the limit set by the rounding of the time.
         shortest: T,
         /// The last accepted state.
         last: State<T>,
-        /// Account of the run so far.
+        /// Report of the run so far.
         report: Report<T>,
     },
-    /// The equations of an implicit step were not solved, however often it was
-    /// halved.
+    /// The equations of an implicit step could not be solved, even after the step was halved
+    /// repeatedly.
     NotSolved {
         /// Length of the last step tried.
         step: T,
-        /// Iterations made for it.
+        /// Number of iterations in the last step tried.
         iterations: u32,
-        /// Largest change of a component in the last iteration, relative to its
-        /// size; NaN where the matrix of Newton's method is singular.
+        /// Largest change of a component in the last iteration, relative to the component's size;
+        /// NaN if the matrix of Newton's method is singular.
         change: T,
         /// The last accepted state.
         last: State<T>,
-        /// Account of the run so far.
+        /// Report of the run so far.
         report: Report<T>,
     },
-    /// The end of a step was not brought back to the level of a first integral,
-    /// however often the step was halved.
+    /// The end of a step could not be projected to the level of a first integral, even after the
+    /// step was halved repeatedly.
     NotProjected {
         /// Length of the last step tried.
         step: T,
-        /// Newton iterations made for its end.
+        /// Number of Newton iterations of the projection.
         iterations: u32,
-        /// Value of the integral minus its level, after the last iteration.
+        /// Value of the integral minus its required value, after the last iteration.
         deviation: T,
         /// The last accepted state.
         last: State<T>,
-        /// Account of the run so far.
+        /// Report of the run so far.
         report: Report<T>,
     },
-    /// The function of an event is NaN.
+    /// The function of an event returned NaN.
     Event {
-        /// Index of the event among those asked for.
+        /// Index of the event in the list of events.
         event: usize,
         /// Time of the evaluation.
         time: T,
         /// The last accepted state.
         last: State<T>,
-        /// Account of the run so far.
+        /// Report of the run so far.
         report: Report<T>,
     },
     /// The limit on the number of steps was reached.
     StepLimit {
-        /// The limit.
+        /// Largest number of steps.
         limit: u64,
         /// The last accepted state.
         last: State<T>,
-        /// Account of the run so far.
+        /// Report of the run so far.
         report: Report<T>,
     },
 }
 
 impl<T> IntegrationError<T> {
-    /// The last state reached within the tolerances, to continue from; none
-    /// where nothing was computed.
+    /// Returns the last state reached within the tolerances, from which a run can continue; `None`
+    /// if nothing was computed.
     pub fn last_state(&self) -> Option<&State<T>> {
         match self {
             Self::Input(_) => None,
@@ -112,8 +110,7 @@ impl<T> IntegrationError<T> {
         }
     }
 
-    /// The account of the run until it failed; none where nothing was
-    /// computed.
+    /// Returns the report of the run until it failed; `None` if nothing was computed.
     pub fn report(&self) -> Option<&Report<T>> {
         match self {
             Self::Input(_) => None,
@@ -204,11 +201,10 @@ impl<T: Real> fmt::Display for IntegrationError<T> {
     }
 }
 
-/// The message tells all: that of [`Input`](IntegrationError::Input) is the fault of the
-/// request itself.
+/// There is no `source`: the message of [`Input`](IntegrationError::Input) includes the cause.
 impl<T: Real> Error for IntegrationError<T> {}
 
-/// Why a run ended before its goal whose observer may fail.
+/// Error of a run whose observer can fail.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum RunError<T, E> {
@@ -216,11 +212,11 @@ pub enum RunError<T, E> {
     Integration(IntegrationError<T>),
     /// The observer failed.
     Observer {
-        /// Error of the observer.
+        /// Error that the observer returned.
         error: E,
-        /// The state that it saw, to continue from.
+        /// State that was passed to the observer, from which a run can continue.
         last: State<T>,
-        /// Account of the run so far.
+        /// Report of the run so far.
         report: Report<T>,
     },
 }
@@ -249,7 +245,7 @@ impl<T: Real, E: fmt::Display> fmt::Display for RunError<T, E> {
     }
 }
 
-/// Messages are those of the error within.
+/// Displays the message of the inner error.
 impl<T: Real, E: Error> Error for RunError<T, E> {
     fn source(&self) -> Option<&(dyn Error + 'static)> {
         match self {
@@ -259,11 +255,11 @@ impl<T: Real, E: Error> Error for RunError<T, E> {
     }
 }
 
-/// The numbers of a state in a message, of which a tree has a million: the first ones,
-/// and how many there are.
+/// Displays the first numbers of a state and their total count, because the state of a large tree
+/// has a million numbers.
 pub(super) struct FirstNumbers<'a, T>(pub(super) &'a [T]);
 
-/// Numbers that a message shows.
+/// Largest number of components that a message shows.
 const SHOWN: usize = 6;
 
 impl<T: Real> fmt::Display for FirstNumbers<'_, T> {

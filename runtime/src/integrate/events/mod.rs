@@ -1,4 +1,4 @@
-//! Zero crossings of functions of time and state.
+//! Events: zero crossings of functions of time and state.
 
 mod search;
 
@@ -16,19 +16,18 @@ use super::steps::Steps;
 use crate::scalar::Real;
 use crate::system::Ode;
 
-/// The zero crossings of a function that count, seen along the run: backwards in
-/// time for a run that goes backwards.
+/// Direction of the zero crossings that count as events, seen in the direction of the run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Crossing {
     /// From negative to positive.
     Rising,
     /// From positive to negative.
     Falling,
-    /// Both.
+    /// Both directions.
     Either,
 }
 
-/// A function of time and state whose zero crossings are looked for.
+/// A function of time and state whose zero crossings are searched for.
 #[derive(Clone, Copy)]
 pub struct Event<'a, T> {
     function: &'a dyn Fn(T, &[T]) -> T,
@@ -38,11 +37,10 @@ pub struct Event<'a, T> {
 }
 
 impl<'a, T: Real> Event<'a, T> {
-    /// The zero crossings of `function(time, state)` in the direction
-    /// `crossing`.
+    /// Creates an event: the zero crossings of `function(time, state)` in the direction `crossing`.
     ///
-    /// The sign is looked at in eight places a step; two zeros between two of
-    /// them are not seen.
+    /// The sign is checked at eight times per step. Two zeros between neighbouring checks are not
+    /// found.
     pub fn new(crossing: Crossing, function: &'a dyn Fn(T, &[T]) -> T) -> Self {
         Self {
             function,
@@ -52,8 +50,8 @@ impl<'a, T: Real> Event<'a, T> {
         }
     }
 
-    /// Ends a run at the occurrence of this number, as SciPy's `terminal` does: 1 is the
-    /// first, 0 none. Each run counts anew.
+    /// Ends the run at occurrence number `number`, as SciPy's `terminal` does: 1 is the first, 0
+    /// never ends it. Each run starts counting at zero.
     pub fn with_terminal(self, number: u32) -> Self {
         Self {
             terminal: number,
@@ -61,9 +59,9 @@ impl<'a, T: Real> Event<'a, T> {
         }
     }
 
-    /// Looks at the sign in `checks` equidistant places a step, one being its
-    /// end; zero counts as one. Where only the end is looked at, steps without
-    /// a change of sign need no dense output.
+    /// Sets the number of equidistant times per step at which the sign is checked, the last one at
+    /// the end of the step; zero counts as one. If only the end is checked, steps without a change
+    /// of sign need no dense output.
     pub fn with_checks(self, checks: u32) -> Self {
         Self {
             checks: checks.max(1),
@@ -92,20 +90,20 @@ impl<T> fmt::Debug for Event<'_, T> {
 /// A zero crossing that was found.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Occurrence<'a, T> {
-    /// Index of the event among those asked for.
+    /// Index of the event in the list of events.
     pub event: usize,
-    /// Time: the first that the search knows behind the crossing, a few units
-    /// of rounding from the zero of the dense output. Zeros that are no further than
-    /// that from each other have one time, behind all of them.
+    /// Time just after the crossing: within a few rounding errors after the zero of the dense
+    /// output. Zeros that are closer together than that get the same time, which is after all of
+    /// them.
     pub time: T,
-    /// State at that time, by the dense output.
+    /// State at that time, from the dense output.
     pub state: &'a [T],
-    /// True where the function rises.
+    /// True if the function crosses zero from negative to positive.
     pub rising: bool,
 }
 
 impl<B: Borrow<O>, O: Ode<T> + ?Sized, S: Steps<T, O>, T: Real> Run<B, O, S, T> {
-    /// Goes on to the time `end` and visits the events on the way.
+    /// Continues the run to the time `end` and reports the events in between.
     pub(super) fn find<E>(
         mut self,
         end: T,

@@ -1,4 +1,4 @@
-//! The search for zero crossings along a run.
+//! Search for zero crossings of event functions during a run.
 
 use alloc::vec::Vec;
 use core::ops::ControlFlow;
@@ -7,27 +7,29 @@ use super::{Crossing, Event, Occurrence};
 use crate::integrate::dense::{DenseError, DenseStep};
 use crate::scalar::Real;
 
-/// Units of rounding within which two times are one, and within which a zero is that of
-/// the start: fewer, so that what is not told at the end of a run is told after it.
+/// Number of rounding errors within which two times count as the same, and within which a zero
+/// counts as that of the start. The second limit is smaller, so that an event missed at the end of
+/// one run is found at the start of the next.
 const ONE_TIME: f64 = 8.0;
 const AT_START: f64 = 4.0;
 
-/// Parts of the way to the next place looked at, by which a function has left a zero: not
-/// so near that rounding decides, where it leaves as a square.
+/// Fractions of the distance to the next check at which it is tested if a function has left a zero.
+/// They are large enough that rounding does not decide the result for a function that leaves
+/// quadratically.
 const DEPARTURES: [f64; 3] = [1.0 / 8192.0, 1.0 / 512.0, 1.0 / 32.0];
 
-/// Places at which several functions are asked whether all are behind their zeros.
+/// Number of times that are tried to find one at which several functions are all past their zeros.
 const MEETINGS: u32 = 8;
 
-/// An accepted step within which crossings are looked for: one of a run, or one in a lane.
+/// An accepted step in which crossings are searched for: a step of a single run, or of one lane.
 pub(in crate::integrate) trait SearchedStep<T> {
-    /// Times at its start and at its end.
+    /// Returns the times at the start and at the end of the step.
     fn ends(&self) -> [T; 2];
 
-    /// Writes the solution at a time within the step: at its ends the state there.
+    /// Writes the solution at a time within the step. At the ends this is the state there.
     ///
     /// # Errors
-    /// [`DenseError`] where the step has no value.
+    /// [`DenseError`] if the step has no value at this time.
     fn value(&mut self, time: T, out: &mut [T]) -> Result<(), DenseError<T>>;
 }
 
@@ -41,11 +43,11 @@ impl<T: Real> SearchedStep<T> for DenseStep<'_, T> {
     }
 }
 
-/// Why a step could not be searched.
+/// Reason why a step could not be searched for crossings.
 pub(in crate::integrate) enum SearchError<T> {
-    /// The step has no value to give.
+    /// The dense output has no value at a time in the step.
     Dense(DenseError<T>),
-    /// A function is NaN.
+    /// The function of an event returned NaN.
     Undefined { event: usize, time: T },
 }
 
@@ -55,7 +57,7 @@ impl<T> From<DenseError<T>> for SearchError<T> {
     }
 }
 
-/// A crossing within the step being searched.
+/// A crossing found within the current step.
 #[derive(Clone, Copy, Debug)]
 struct Found<T> {
     event: usize,
@@ -63,22 +65,22 @@ struct Found<T> {
     rising: bool,
 }
 
-/// The search along a run.
+/// State of the search for crossings along a run.
 pub(in crate::integrate) struct CrossingSearch<'a, T> {
     events: &'a [Event<'a, T>],
-    /// Number of occurrences of each so far.
+    /// Number of occurrences of each event up to now.
     counts: Vec<u32>,
     /// Last value of each function.
     values: Vec<T>,
     /// True once `values` are set.
     begun: bool,
-    /// Crossings of the current step, in their order along the run.
+    /// Crossings that were found in the current step.
     found: Vec<Found<T>>,
-    /// State at the last place looked at.
+    /// State at the last time at which the step was evaluated.
     pub(in crate::integrate) state: Vec<T>,
 }
 
-/// A place of a step and the value of a function there.
+/// A time within the step, with the value of an event's function there.
 #[derive(Clone, Copy)]
 struct EventSample<T> {
     time: T,
@@ -97,9 +99,9 @@ impl<'a, T: Real> CrossingSearch<'a, T> {
         }
     }
 
-    /// Visits the crossings within `step`. Returns the time of the one at which the run
-    /// is to end, the state there being that of the search, and why: it is asked for, or
-    /// the visitor failed. Others at that time have been visited too.
+    /// Visits the crossings within `step`. If an event is terminal or the visitor returns an error,
+    /// returns the time at which the run ends; the state of the search is then the state at that
+    /// time. All crossings at that time are visited first.
     #[allow(clippy::type_complexity)]
     pub(in crate::integrate) fn visit<E>(
         &mut self,
@@ -133,11 +135,11 @@ impl<'a, T: Real> CrossingSearch<'a, T> {
         Ok(None)
     }
 
-    /// The time of the crossings from `first` on that are at one time, to rounding, and
-    /// the place behind the last of them. The state becomes that of this time.
+    /// Returns the common time of all crossings that coincide with crossing number `first` up to
+    /// rounding, and the index after the last of them. The state becomes the state at this time.
     ///
-    /// There their functions are behind their zeros, and no others are whose crossings
-    /// come later in the step: a run that starts there tells none twice and loses none.
+    /// At this time their functions are past their zeros, but functions that cross later in the
+    /// step are not. So a run that starts at this time reports no crossing twice and misses none.
     fn meet(
         &mut self,
         first: usize,
@@ -164,7 +166,7 @@ impl<'a, T: Real> CrossingSearch<'a, T> {
             } else {
                 time - hop
             };
-            // In the direction of the step.
+            // Compared in the direction of the step.
             let is_beyond = (further - end) * length > T::ZERO;
             time = if is_beyond { end } else { further };
             hop = hop + hop;
@@ -172,8 +174,8 @@ impl<'a, T: Real> CrossingSearch<'a, T> {
         Ok((time, next))
     }
 
-    /// Returns true if the functions of the crossings from `first` to `next` are behind
-    /// their zeros at `time`. Others that are join them.
+    /// Returns true if the functions of the crossings from `first` to `next` are past their zeros
+    /// at `time`. Crossings whose functions are also past their zeros are added to this range.
     fn are_behind(
         &mut self,
         first: usize,
@@ -184,7 +186,7 @@ impl<'a, T: Real> CrossingSearch<'a, T> {
         let mut all = true;
         for index in first..self.found.len() {
             let Found { event, rising, .. } = self.found[index];
-            // Of each event, the last crossing that is told, or the first one that is not.
+            // For each event: its last crossing in the range, or its first one after the range.
             let others = if index < *next {
                 index + 1..*next
             } else {
@@ -208,7 +210,7 @@ impl<'a, T: Real> CrossingSearch<'a, T> {
         Ok(all)
     }
 
-    /// Finds the crossings within `step`, in their order.
+    /// Finds the crossings within `step`, in the order of the run.
     fn step(&mut self, step: &mut impl SearchedStep<T>) -> Result<(), SearchError<T>> {
         self.found.clear();
         let [start, end] = step.ends();
@@ -230,7 +232,7 @@ impl<'a, T: Real> CrossingSearch<'a, T> {
                 left = self.leave(index, left, time, step)?;
                 let value = self.value(index, time, step)?;
                 let right = EventSample { time, value };
-                self.look(index, left, right, step)?;
+                self.record_crossing(index, left, right, step)?;
                 left = right;
             }
             self.values[index] = left.value;
@@ -245,7 +247,7 @@ impl<'a, T: Real> CrossingSearch<'a, T> {
         Ok(())
     }
 
-    /// Value of an event's function within the step.
+    /// Evaluates an event's function at a time within the step.
     fn value(
         &mut self,
         event: usize,
@@ -254,15 +256,15 @@ impl<'a, T: Real> CrossingSearch<'a, T> {
     ) -> Result<T, SearchError<T>> {
         step.value(time, &mut self.state)?;
         let value = (self.events[event].function)(time, &self.state);
-        // An infinite value has a sign; NaN has none.
+        // An infinite value has a sign, NaN has none.
         match value.partial_cmp(&T::ZERO) {
             Some(_) => Ok(value),
             None => Err(SearchError::Undefined { event, time }),
         }
     }
 
-    /// A place behind `left` where the function is on the side to which it leaves a zero
-    /// there; `left` itself where it is none, or where it stays.
+    /// Returns a time just after `left` at which the function has left its zero. Returns `left`
+    /// itself if the function is not zero there, or if it stays zero.
     fn leave(
         &mut self,
         event: usize,
@@ -283,9 +285,9 @@ impl<'a, T: Real> CrossingSearch<'a, T> {
         Ok(left)
     }
 
-    /// Notes the crossing between two places, if there is one that counts and that is not
-    /// at the start of the run.
-    fn look(
+    /// Records the crossing between `left` and `right`, if there is one in the requested direction
+    /// and it is not at the start of the run.
+    fn record_crossing(
         &mut self,
         event: usize,
         left: EventSample<T>,
@@ -313,9 +315,9 @@ impl<'a, T: Real> CrossingSearch<'a, T> {
         Ok(())
     }
 
-    /// The end behind the crossing of a bracket that rounding keeps from
-    /// shrinking: by secants of weighted ends (Illinois), with a bisection
-    /// wherever they halve the bracket too slowly.
+    /// Narrows the interval that contains a crossing as far as rounding allows, and returns its
+    /// later end. Uses the secant method with weighted ends (Illinois), and bisection if the
+    /// interval shrinks by less than half.
     fn locate(
         &mut self,
         event: usize,
@@ -364,7 +366,7 @@ impl<'a, T: Real> CrossingSearch<'a, T> {
     }
 }
 
-/// So many units of rounding of a time.
+/// Returns `units` times the rounding error of a time.
 fn rounding<T: Real>(units: f64, time: T) -> T {
     T::from_f64(units) * T::EPSILON * time.abs()
 }

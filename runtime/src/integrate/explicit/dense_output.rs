@@ -1,6 +1,6 @@
-//! Values inside a step of an explicit pair.
+//! Dense output of explicit Runge–Kutta pairs: the solution within a step.
 
-// One index into all components at once.
+// One index runs through several vectors at once.
 #![allow(clippy::needless_range_loop)]
 
 use super::pair::{DenseForm, EmbeddedPair};
@@ -12,7 +12,8 @@ use crate::integrate::right_hand_side::{RightHandSide, StepSpan};
 use crate::scalar::Scalar;
 
 impl<W: Scalar> StepStages<W> {
-    /// The stages and the coefficients of the dense output of a step.
+    /// Evaluates the additional stages for the dense output of a step, and computes its
+    /// coefficients.
     #[inline(always)]
     pub(super) fn prepare_dense<M: EmbeddedPair, S: RightHandSide<W>>(
         &mut self,
@@ -33,7 +34,8 @@ impl<W: Scalar> StepStages<W> {
         Ok(())
     }
 
-    /// h (sum of row) for row `ROW` of the dense output, if there are so many.
+    /// Computes coefficient number `ROW` of the dense output, h · Σ (row · rates), if the pair has
+    /// such a row.
     #[inline(always)]
     fn row_terms<M: EmbeddedPair, const ROW: usize>(&mut self, n: usize, step: W) {
         const { assert!(M::DENSE.rows().len() <= 5) }
@@ -52,7 +54,8 @@ impl<W: Scalar> StepStages<W> {
         }
     }
 
-    /// The first three coefficients of [`DenseForm::Alternating`].
+    /// Computes the first three coefficients of the dense output in the form
+    /// [`DenseForm::Alternating`].
     #[inline(always)]
     fn hermite<M: EmbeddedPair>(&mut self, n: usize, step: W) {
         let (start, end) = (&self.start[..n], &self.end[..n]);
@@ -67,7 +70,8 @@ impl<W: Scalar> StepStages<W> {
         }
     }
 
-    /// The first and the last two coefficients of [`DenseForm::Bernstein`].
+    /// Computes the first and the last two coefficients of the dense output in the form
+    /// [`DenseForm::Bernstein`].
     #[inline(always)]
     fn end_terms<M: EmbeddedPair>(&mut self, n: usize, step: W) {
         let part = step / W::from_f64(DEGREE as f64);
@@ -82,7 +86,7 @@ impl<W: Scalar> StepStages<W> {
         }
     }
 
-    /// Writes the solution at the fraction `s` of the step.
+    /// Writes the solution at the fraction `s` (0 to 1) of the step to `out`.
     #[cfg(feature = "std")]
     #[inline(always)]
     pub(super) fn value<M: EmbeddedPair>(&self, s: W, out: &mut [W]) {

@@ -1,6 +1,6 @@
-//! Explicit Runge–Kutta pairs in the lanes of vector registers.
+//! Explicit Runge–Kutta pairs for many trajectories, one in each lane of a vector register.
 
-// A sealed trait names the types.
+// The types are public because a sealed trait mentions them.
 #![allow(unreachable_pub)]
 
 use alloc::vec;
@@ -53,10 +53,10 @@ impl<M: EmbeddedPair, O: LaneOde<T>, T: Lane> LaneMethod<O, T> for ExplicitRunge
     }
 }
 
-/// The systems in the lanes, and what the sizes of their errors need.
+/// The systems of all lanes, with the smallest divisor that scaled errors need.
 struct Systems<O: LaneOde<T>, T: Lane, R: Simd<T>> {
     lanes: LaneSystems<O, T, R>,
-    /// A divisor for what may be zero over zero.
+    /// Smallest positive divisor; it avoids 0/0 for components that are exactly zero.
     smallest: R,
 }
 
@@ -108,15 +108,15 @@ impl<O: LaneOde<T>, T: Lane, R: Simd<T>> ErrorScale<R> for Systems<O, T, R> {
     }
 }
 
-/// The method at work.
+/// Data of an explicit pair during a run with one trajectory in each lane.
 pub struct PairInLanes<M, O: LaneOde<T>, T: Lane, R: Simd<T>> {
     system: Systems<O, T, R>,
     limits: StepLimits<T>,
     stages: StepStages<R>,
     controls: [StepControl<T>; WIDEST],
-    /// Scaled errors of the step.
+    /// Scaled error of the step, for each lane.
     errors: Numbers<T>,
-    /// Zero where the state at the end is finite, NaN elsewhere.
+    /// For each lane: zero if the state at the end of the step is finite, NaN otherwise.
     finite_end: Numbers<T>,
     pair: PhantomData<M>,
 }
@@ -200,7 +200,7 @@ impl<M: EmbeddedPair, O: LaneOde<T>, T: Lane, R: Simd<T>> LaneSteps<T, R>
             return Ok(());
         }
         let failed = self.system.lanes.failed_stage(lane, M::STAGES + 2, stages);
-        Err(self.place(lane, runs.span(lane), failed))
+        Err(self.stage_input(lane, runs.span(lane), failed))
     }
 
     #[inline(always)]
@@ -216,8 +216,8 @@ impl<M: EmbeddedPair, O: LaneOde<T>, T: Lane, R: Simd<T>> LaneSteps<T, R>
 }
 
 impl<M: EmbeddedPair, O: LaneOde<T>, T: Lane, R: Simd<T>> PairInLanes<M, O, T, R> {
-    /// Judges the step of a lane, as the driver of the plain method does, and
-    /// chooses the next one. Returns true if it is accepted.
+    /// Accepts or rejects the step of a lane, as the driver of single trajectories does, and
+    /// chooses the next step. Returns true if the step is accepted.
     #[inline(always)]
     fn judge_lane(&mut self, runs: &mut Runs<T>, lane: usize, [stages, end_rates]: [T; 2]) -> bool {
         let span = runs.span(lane);
@@ -225,7 +225,7 @@ impl<M: EmbeddedPair, O: LaneOde<T>, T: Lane, R: Simd<T>> PairInLanes<M, O, T, R
         if !stages.is_finite() {
             let failed = self.system.lanes.failed_stage(lane, 2, M::STAGES);
             runs.evaluations[lane] += failed as u64 - 1;
-            self.fail(runs, lane, self.place(lane, span, failed));
+            self.fail(runs, lane, self.stage_input(lane, span, failed));
             return false;
         }
         runs.evaluations[lane] += M::STAGES as u64 - 1;
@@ -250,8 +250,8 @@ impl<M: EmbeddedPair, O: LaneOde<T>, T: Lane, R: Simd<T>> PairInLanes<M, O, T, R
         true
     }
 
-    /// Counts the rates at the end of a lane's step. Ends the trajectory and returns
-    /// false if they are not finite.
+    /// Counts the evaluation at the end of a lane's step. If the rates there are not finite, ends
+    /// the trajectory and returns false.
     #[inline(always)]
     fn judge_end(&self, runs: &mut Runs<T>, lane: usize, check: T) -> bool {
         runs.evaluations[lane] += 1;
@@ -262,7 +262,8 @@ impl<M: EmbeddedPair, O: LaneOde<T>, T: Lane, R: Simd<T>> PairInLanes<M, O, T, R
         check.is_finite()
     }
 
-    /// Ends the trajectory of a lane at a place where something is not finite.
+    /// Ends the trajectory in a lane because rates or values at `place` (time and state) are not
+    /// finite.
     #[cold]
     fn fail(&self, runs: &mut Runs<T>, lane: usize, place: (T, Vec<T>)) {
         let last = State {
@@ -272,11 +273,11 @@ impl<M: EmbeddedPair, O: LaneOde<T>, T: Lane, R: Simd<T>> PairInLanes<M, O, T, R
         runs.non_finite(lane, place, last);
     }
 
-    /// Time and state of a stage in a lane.
+    /// Returns the time and the state at which a stage of a lane was evaluated.
     #[cold]
-    fn place(&self, lane: usize, span: StepSpan<T>, stage: usize) -> (T, Vec<T>) {
+    fn stage_input(&self, lane: usize, span: StepSpan<T>, stage: usize) -> (T, Vec<T>) {
         let (stages, n) = (&self.stages, self.system.dimension());
-        // Operations as in the step, for equal bits.
+        // The operations are those of the step, so that the bits are equal.
         let span = StepSpan {
             time: R::splat(span.time),
             step: R::splat(span.step),
@@ -289,8 +290,8 @@ impl<M: EmbeddedPair, O: LaneOde<T>, T: Lane, R: Simd<T>> PairInLanes<M, O, T, R
         (time, numbers_in(&values, lane))
     }
 
-    /// The first stage and the first step of fresh trajectories. The other lanes
-    /// go through it too, and keep what they have.
+    /// Computes the first stage and the first step length of the trajectories that start now. The
+    /// other lanes are computed too, but keep their values.
     #[inline(always)]
     fn first_steps(&mut self, runs: &mut Runs<T>, fresh: &Flags) {
         let (system, stages) = (&mut self.system, &mut self.stages);

@@ -1,7 +1,7 @@
-//! Explicit Runge–Kutta pairs: a table of coefficients and an estimate each.
+//! Explicit Runge–Kutta pairs, each with a table of coefficients and an error estimate.
 //!
-//! [`stages`] has the arithmetic of a step, for one state or for one in each lane;
-//! [`steps`] the steps of one trajectory, [`lanes`] those of many.
+//! [`stages`] contains the arithmetic of a step, for a single state or for one state in each lane;
+//! [`steps`] integrates one trajectory, [`lanes`] many.
 
 mod dense_output;
 mod dop853;
@@ -33,15 +33,15 @@ pub use self::dop853::DormandPrince8;
 pub use self::dopri5::DormandPrince5;
 pub use self::verner98::Verner9;
 
-/// The explicit Runge–Kutta method of J. R. Dormand and P. J. Prince of order
-/// 8, with error estimates of order 5 and 3 and dense output of order 7.
+/// The explicit Runge–Kutta method of J. R. Dormand and P. J. Prince of order 8, with error
+/// estimates of order 5 and 3 and dense output of order 7.
 ///
-/// Twelve evaluations of the right-hand side for an accepted step, eleven for
-/// a rejected one, three more where values inside a step are asked for.
-/// Memory: 16 + 14 vectors of the state's length.
+/// Takes twelve evaluations of the right-hand side for an accepted step, eleven for a rejected one,
+/// and three more if values within a step are requested. Memory: 16 + 14 vectors of the state's
+/// length.
 ///
-/// Source: Hairer, Nørsett, Wanner, *Solving Ordinary Differential Equations
-/// I*, 2nd edition, Springer 1993, section II.10.
+/// Source: Hairer, Nørsett, Wanner, *Solving Ordinary Differential Equations I*, 2nd edition,
+/// Springer 1993, section II.10.
 ///
 /// # Examples
 ///
@@ -66,55 +66,52 @@ pub use self::verner98::Verner9;
 /// ```
 pub type Dop853<T> = ExplicitRungeKutta<DormandPrince8, T>;
 
-/// The explicit Runge–Kutta method of J. R. Dormand and P. J. Prince of order
-/// 5, with an error estimate of order 4 and dense output of order 4: for loose
-/// tolerances.
+/// The explicit Runge–Kutta method of J. R. Dormand and P. J. Prince of order 5, with an error
+/// estimate of order 4 and dense output of order 4, for loose tolerances.
 ///
-/// Six evaluations of the right-hand side for an accepted or a rejected step,
-/// none for values inside. Memory: 7 + 12 vectors of the state's length.
+/// Takes six evaluations of the right-hand side for each step, accepted or rejected, and none for
+/// values within a step. Memory: 7 + 12 vectors of the state's length.
 ///
-/// The error estimate counts twentyfold, unlike in the authors' program: at
-/// equal tolerance the error of a run is then not far above that of the methods
-/// of higher order.
+/// The error estimate is multiplied by twenty, unlike in the authors' program, so that at equal
+/// tolerance the error of a run is not far above that of the methods of higher order.
 ///
-/// Source: Hairer, Nørsett, Wanner, *Solving Ordinary Differential Equations
-/// I*, 2nd edition, Springer 1993, table II.5.2 and section II.6.
+/// Source: Hairer, Nørsett, Wanner, *Solving Ordinary Differential Equations I*, 2nd edition,
+/// Springer 1993, table II.5.2 and section II.6.
 pub type Dopri5<T> = ExplicitRungeKutta<DormandPrince5, T>;
 
-/// J. H. Verner's "most efficient" explicit Runge–Kutta method of order 9, with
-/// an error estimate of order 8 and dense output of order 8: for tight
-/// tolerances.
+/// J. H. Verner's "most efficient" explicit Runge–Kutta method of order 9, with an error estimate
+/// of order 8 and dense output of order 8, for tight tolerances.
 ///
-/// Sixteen evaluations of the right-hand side for an accepted step, fifteen for
-/// a rejected one, four more where values inside a step are asked for. Memory:
-/// 21 + 15 vectors of the state's length.
+/// Takes sixteen evaluations of the right-hand side for an accepted step, fifteen for a rejected
+/// one, and four more if values within a step are requested. Memory: 21 + 15 vectors of the state's
+/// length.
 ///
-/// Source: J. H. Verner, *Numerically optimal Runge–Kutta pairs with
-/// interpolants*, Numerical Algorithms 53 (2010) 383–396; coefficients in the
-/// author's later, better version of 7 April 2024.
+/// Source: J. H. Verner, *Numerically optimal Runge–Kutta pairs with interpolants*, Numerical
+/// Algorithms 53 (2010) 383–396; coefficients in the author's later, better version of 7 April
+/// 2024.
 pub type Verner98<T> = ExplicitRungeKutta<Verner9, T>;
 
-/// An adaptive explicit Runge–Kutta method: an embedded pair and options.
+/// An adaptive explicit Runge–Kutta method: an embedded pair and its options.
 ///
-/// Used by the names of its pairs:
+/// Used under the names of its pairs:
 ///
 /// | pair | order | dense output | for |
 /// |---|---|---|---|
 /// | [`Dopri5`] | 5(4) | 4 | tolerances above 1e-5 |
-/// | [`Dop853`] | 8(5,3) | 7 | most things |
+/// | [`Dop853`] | 8(5,3) | 7 | most problems |
 /// | [`Verner98`] | 9(8) | 8 | tolerances below 1e-10 |
 ///
-/// Coefficients are rounded to `f64`: in numbers of more digits a run is good to some 1e-16 for
-/// each unit of time, whatever the tolerance. [`Taylor`](super::Taylor) has all digits.
+/// Coefficients are rounded to `f64`. In number types with more digits, the error of a run is
+/// therefore about 1e-16 per unit of time, at any tolerance; [`Taylor`](super::Taylor) has no such
+/// limit.
 ///
-/// All memory is allocated when a run starts; steps allocate nothing.
+/// All memory is allocated when a run starts. Steps allocate nothing.
 ///
-/// Same input, same target, same bits: nothing in a run depends on anything
-/// but its arguments. A run that an observer or the step limit has stopped
-/// continues with exactly the steps that it would have made, when started
-/// again from its last state with [`Report::next_step`] as initial step,
-/// provided that [`Options::beta`] is zero and [`Options::compensated`] is
-/// off: the memory of the two is not part of a [`State`].
+/// A run depends only on its arguments: the same input gives the same bits. A run that an observer
+/// or the step limit has stopped continues with exactly the steps that it would have made, if it is
+/// started from its last state with [`Report::next_step`] as the initial step, [`Options::beta`] is
+/// zero and [`Options::compensated`] is off. The memory of these two options is not part of a
+/// [`State`].
 ///
 /// [`Report::next_step`]: super::Report::next_step
 #[derive(Clone, Debug)]
@@ -123,15 +120,15 @@ pub struct ExplicitRungeKutta<M, T> {
     pair: PhantomData<M>,
 }
 
-/// The smallest relative tolerance of use. Below it the estimate of the error is mostly its
-/// own rounding: steps get ten times as many for each digit that is asked for, and the
-/// error stays.
+/// Returns the smallest useful relative tolerance. Below it the error estimate is mostly rounding:
+/// ten times the steps are needed for each further digit of the tolerance, and the error stays the
+/// same.
 fn smallest_tolerance<T: Real>() -> T {
     T::EPSILON * T::from_f64(0.25)
 }
 
 impl<M: EmbeddedPair, T: Real> ExplicitRungeKutta<M, T> {
-    /// The method with these options, which are checked when a run starts.
+    /// Creates the method with these options, which are checked when a run starts.
     pub fn new(options: Options<T>) -> Self {
         Self {
             options,
@@ -139,21 +136,19 @@ impl<M: EmbeddedPair, T: Real> ExplicitRungeKutta<M, T> {
         }
     }
 
-    /// The options of the method.
+    /// Returns the options of the method.
     pub fn options(&self) -> &Options<T> {
         &self.options
     }
 
-    /// One step of length `step` (negative: backwards), whatever its error.
+    /// Makes one step of length `step` (negative: backwards), without error control.
     ///
-    /// For tests of the method and for loops with a step of their own; it
-    /// evaluates the stages once and allocates. Tolerances and
-    /// step limits have no say, and sums are plain.
+    /// For tests of the method and for callers that choose their own steps. Evaluates the stages
+    /// once and allocates. Tolerances and step limits are ignored, and sums are not compensated.
     ///
     /// # Errors
     ///
-    /// [`IntegrationError`] if the request makes no sense, or if the state or
-    /// its rates are not finite.
+    /// [`IntegrationError`] if an argument is invalid, or if the state or its rates are not finite.
     pub fn step<O: Ode<T> + ?Sized>(
         &self,
         ode: &O,

@@ -1,21 +1,20 @@
-//! All order conditions of a Runge–Kutta table, for the tests of the tables.
+//! Order conditions of a Runge–Kutta table, for the tests of the tables.
 //!
-//! One condition for each rooted tree: Σ_i b_i Φ_i(t) = 1/γ(t); for dense
-//! output Σ_i b_i(s) Φ_i(t) = s^order/γ(t). Hairer, Nørsett, Wanner, *Solving
-//! ODEs I*, section II.2.
+//! There is one condition for each rooted tree t: Σ_i b_i Φ_i(t) = 1/γ(t); for dense output Σ_i
+//! b_i(s) Φ_i(t) = s^order/γ(t). Hairer, Nørsett, Wanner, *Solving ODEs I*, section II.2.
 
 use std::vec::Vec;
 
 use super::pair::EmbeddedPair;
 
-/// Nodes and rows of a table, by stage.
+/// Nodes and rows of a Runge–Kutta table, by stage.
 pub(super) struct ButcherTable {
     pub(super) nodes: Vec<f64>,
     pub(super) rows: Vec<&'static [(usize, f64)]>,
 }
 
 impl ButcherTable {
-    /// The table of a pair.
+    /// Returns the table of a pair.
     pub(super) fn of<M: EmbeddedPair>() -> Self {
         let rows = M::ROWS.iter().copied();
         Self {
@@ -36,8 +35,8 @@ impl ButcherTable {
     }
 }
 
-/// A rooted tree: its order, its density γ, its branches as indices of trees,
-/// and what each stage gives for it, Φ_i, with a bound of its size.
+/// A rooted tree: its order, its density γ, its branches (as indices of trees), and the elementary
+/// weight Φ_i of each stage i, with a bound on its size.
 pub(super) struct RootedTree {
     order: u32,
     density: f64,
@@ -45,7 +44,8 @@ pub(super) struct RootedTree {
     stages: Vec<(f64, f64)>,
 }
 
-/// All rooted trees to order `highest`, with their Φ_i in `table`.
+/// Returns all rooted trees up to order `highest`, with the elementary weights Φ_i of the stages of
+/// `table`.
 pub(super) fn stage_values(table: &ButcherTable, highest: u32) -> Vec<RootedTree> {
     let count = table.nodes.len();
     let mut trees = std::vec![RootedTree {
@@ -77,7 +77,7 @@ pub(super) fn stage_values(table: &ButcherTable, highest: u32) -> Vec<RootedTree
     trees
 }
 
-/// All multisets of trees with index below `bound` and `left` nodes together.
+/// Appends all multisets of trees whose index is below `bound` and whose orders add up to `left`.
 fn collect(
     trees: &[RootedTree],
     left: u32,
@@ -105,7 +105,8 @@ fn sums(row: &[(usize, f64)], values: &[(f64, f64)]) -> (f64, f64) {
         })
 }
 
-/// The order of the formula with these weights, at most that of the trees.
+/// Returns the order of the formula with these weights; at most the highest order of the given
+/// trees.
 pub(super) fn order(trees: &[RootedTree], weights: &[(usize, f64)]) -> u32 {
     let missed = trees.iter().find(|tree| {
         let (sum, size) = sums(weights, &tree.stages);
@@ -115,8 +116,8 @@ pub(super) fn order(trees: &[RootedTree], weights: &[(usize, f64)]) -> u32 {
     missed.map_or(highest, |tree| tree.order - 1)
 }
 
-/// Weights of all stages at one fraction of the step, with the sums of the
-/// magnitudes that they are formed of.
+/// Weights of all stages at one fraction of the step, each with the sum of the magnitudes of its
+/// terms.
 pub(super) struct StageWeights(Vec<(f64, f64)>);
 
 impl StageWeights {
@@ -126,8 +127,8 @@ impl StageWeights {
     }
 }
 
-/// Asserts that the dense output whose weights `fill(s, weights)` adds up has
-/// the order `order` at every fraction s of the step.
+/// Asserts that the dense output with the weights of `fill(s, weights)` has the order `order` at
+/// every fraction s of the step.
 pub(super) fn continuous(trees: &[RootedTree], order: u32, fill: impl Fn(f64, &mut StageWeights)) {
     for s in [0.1_f64, 0.3, 0.5, 0.7, 0.9, 1.0] {
         for tree in trees.iter().filter(|tree| tree.order <= order) {

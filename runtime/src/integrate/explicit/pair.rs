@@ -1,53 +1,53 @@
-//! An embedded pair: its table, its control and its estimate.
+//! Definition of an embedded pair: its table, step-size control and error estimate.
 
 use super::stages::{ErrorScale, StepStages};
 use crate::integrate::control::ControlConstants;
 use crate::integrate::piece::Form;
 use crate::scalar::Scalar;
 
-/// One row of a table: numbers of stages, from 1, and their coefficients.
+/// Row of a table: pairs of a stage number (counted from 1) and its coefficient.
 pub(crate) type TableRow<const N: usize> = [(usize, f64); N];
 
 /// An embedded pair of explicit Runge–Kutta formulas with dense output.
 ///
-/// Stages count from 1. Stage 1 is made by the step before; the rates at the
-/// end of the step are stage [`STAGES`](Self::STAGES) + 1; stages beyond serve
-/// the dense output.
+/// Stages count from 1. Stage 1 is the last evaluation of the step before. The rates at the end of
+/// the step are stage [`STAGES`](Self::STAGES) + 1. Later stages serve the dense output.
 pub trait EmbeddedPair: Copy + core::fmt::Debug + Send + Sync + 'static {
-    /// Constants of the step-size control. Their order is that of the solution
-    /// that is continued.
+    /// Constants of the step-size control. The order in them is the order of the solution from
+    /// which the next step starts.
     const CONTROL: ControlConstants;
-    /// Stages up to the end of the step, without the rates there.
+    /// Number of stages up to the end of the step, not counting the evaluation at the end.
     const STAGES: usize;
     /// Nodes of all stages, as fractions of the step.
     const NODES: &'static [f64];
-    /// Rows of all stages from the second on, that of the solution in the place of
-    /// the rates at the end.
+    /// Rows of all stages from the second on. The row of stage [`STAGES`](Self::STAGES) + 1 holds
+    /// the weights of the solution.
     const ROWS: &'static [&'static [(usize, f64)]];
-    /// The dense output.
+    /// Form and rows of the dense output.
     const DENSE: DenseForm;
     /// True if the error estimate needs the rates at the end of the step.
     const ERROR_USES_END: bool;
 
-    /// Scaled error of a step of length `size`: one is the largest allowed.
+    /// Returns the scaled error of a step of length `size`; 1 is the largest allowed error.
     fn error<W: Scalar, S: ErrorScale<W>>(stages: &StepStages<W>, system: &S, size: W) -> W;
 }
 
-/// The form of a dense output: most of its coefficients are h (sum of row), three
-/// come from the ends of the step.
+/// Form of a dense output. Three of its coefficients come from the ends of the step; the others are
+/// h · Σ (row · rates).
 #[derive(Clone, Copy, Debug)]
 pub enum DenseForm {
-    /// y + s (Δy + r (d₁ + s (d₂ + r (d₃ + …)))), r = 1 − s, with d₁ = h k₁ − Δy and
-    /// d₂ = Δy − h k − d₁, k being the rates at the end; the rows are those of d₃
-    /// and on.
+    /// y + s (Δy + r (d₁ + s (d₂ + r (d₃ + …)))) with r = 1 − s, d₁ = h k₁ − Δy and d₂ = Δy − h k −
+    /// d₁, where y is the state and k₁ the rates at the start, Δy the increment, h the length of
+    /// the step, and k the rates at its end. The rows give d₃ and later coefficients.
     Alternating(&'static [&'static [(usize, f64)]]),
-    /// y + Σ_k d_k (8 over k) s^k r^(8 − k), r = 1 − s, with d₁ = h k₁/8, d₈ = Δy and
-    /// d₇ = Δy − h k/8; the rows are those of d₂ to d₆.
+    /// y + Σ_k d_k (8 over k) s^k r^(8 − k) with r = 1 − s, d₁ = h k₁/8, d₈ = Δy and d₇ = Δy − h
+    /// k/8, where y is the state and k₁ the rates at the start, Δy the increment, h the length of
+    /// the step, and k the rates at its end. The rows give d₂ to d₆.
     Bernstein(&'static [&'static [(usize, f64)]]),
 }
 
 impl DenseForm {
-    /// The form alone.
+    /// Returns the form without its rows.
     pub(super) fn form(self) -> Form {
         match self {
             Self::Alternating(_) => Form::Alternating,
@@ -55,19 +55,20 @@ impl DenseForm {
         }
     }
 
-    /// Rows of the coefficients that are sums over stages.
+    /// Returns all rows of the coefficient tables; each row contains the weights of a sum over
+    /// stages.
     pub(super) const fn rows(self) -> &'static [&'static [(usize, f64)]] {
         match self {
             Self::Alternating(rows) | Self::Bernstein(rows) => rows,
         }
     }
 
-    /// Number of coefficients beyond the start value.
+    /// Returns the number of coefficients, not counting the start value.
     pub(super) const fn terms(self) -> usize {
         self.rows().len() + 3
     }
 
-    /// Number of coefficients before those of the rows.
+    /// Returns the number of coefficients that come before the first one with a row.
     pub(super) const fn terms_before_rows(self) -> usize {
         match self {
             Self::Alternating(_) => 3,
@@ -76,7 +77,7 @@ impl DenseForm {
     }
 }
 
-/// The row `weights` minus the row `other`; `N` counts the stages of both.
+/// Returns the row `weights` minus the row `other`. `N` is the number of stages in either.
 pub(super) const fn difference<const N: usize>(
     weights: &[(usize, f64)],
     other: &[(usize, f64)],

@@ -1,10 +1,9 @@
-//! The arithmetic of one step: stages, end, error norm.
+//! Arithmetic of one step of an explicit pair: stages, state at the end, error norm.
 //!
-//! Written once for numbers `W` of any width: one, for the plain method, or a
-//! vector register with a state in each lane. [`RightHandSide`] and [`ErrorScale`] are what
-//! tells one from the other.
+//! It is written once, for numbers `W` of any width: a single number, or a vector register with one
+//! state in each lane. The traits [`RightHandSide`] and [`ErrorScale`] cover the differences.
 
-// Users name the pairs, and nothing that their trait is made of.
+// The types are public because the trait of a pair mentions them; users name only the pairs.
 #![allow(unreachable_pub)]
 
 use alloc::vec;
@@ -16,27 +15,27 @@ use crate::integrate::right_hand_side::{MOST_STAGES, RightHandSide, StepSpan};
 use crate::scalar::two_sum;
 use crate::scalar::{Real, Scalar};
 
-/// Stages go through a loop: code that a page loads has to be small, and other things take
-/// the time there.
+/// True if one loop computes all stages, for small code, as on web pages, which have to load the
+/// code and spend little time in stages. If false, each stage has separate code.
 const SMALL: bool = cfg!(target_family = "wasm");
 
-/// Sizes of the errors of one state, or of one state in each lane.
+/// Scaling of errors by their tolerances, for one state or for one state in each lane.
 pub trait ErrorScale<W: Scalar>: RightHandSide<W> {
-    /// Says of each lane whether its step is accepted.
+    /// Type of a flag that a step is accepted, or of one such flag per lane.
     type Accepted: Copy;
 
-    /// The larger size of two numbers.
+    /// Returns the larger magnitude of two numbers.
     fn larger_size(one: W, other: W) -> W;
 
-    /// Values over their common tolerance. A component that is exactly zero by
-    /// symmetry has no error, whatever its tolerance: not 0/0.
+    /// Returns the values divided by their common tolerance. If a component is exactly zero by
+    /// symmetry, its scaled error is zero at any tolerance, not 0/0.
     fn scaled<const N: usize>(&self, values: [W; N], tolerance: W) -> [W; N];
 
-    /// The number `new` where the step is accepted, `old` elsewhere.
+    /// Returns `new` if the step is accepted and `old` if it is rejected, lane by lane.
     fn accept(new: W, old: W, accepted: Self::Accepted) -> W;
 }
 
-/// The vectors that a run works on, allocated once.
+/// Workspace of a run, allocated once: states, rates of the stages, tolerances, dense output.
 #[derive(Clone, Debug)]
 pub struct StepStages<W> {
     /// Relative tolerance of each component.
@@ -51,19 +50,19 @@ pub struct StepStages<W> {
     pub(super) stage: Vec<W>,
     /// Rates of the stages, one after the other.
     pub(super) rates: Vec<W>,
-    /// True if the sums y + Δy carry their rounding errors along.
+    /// True if the sums y + Δy keep their rounding errors (compensated summation).
     compensated: bool,
-    /// Rounding error of `start`, to be added to it: zero unless compensated.
+    /// Rounding error of `start`, which compensated sums add to it; zero otherwise.
     pub(super) start_residue: Vec<W>,
     /// Rounding error of `end`.
     end_residue: Vec<W>,
-    /// Coefficients of the dense output beyond the start value, one after the
-    /// other.
+    /// Coefficients of the dense output after the start value, one vector after the other.
     pub(super) dense: Vec<W>,
 }
 
-/// `make_stages!(self, system, span, first, last)` makes these stages of the pair `M`, each
-/// in code of its own: rows of tables are constants there, and their sums are written out.
+/// `make_stages!(self, system, span, first, last)` computes the stages `first` to `last` of the
+/// pair `M`, each by separate code, in which the rows of the table are constants and their sums are
+/// written out.
 macro_rules! make_stages {
     ($self:ident, $system:ident, $span:ident, $first:expr, $last:expr) => {
         make_stages!($self, $system, $span, $first, $last;
@@ -76,8 +75,8 @@ macro_rules! make_stages {
     };
 }
 
-/// Row and node of a stage. The compiler asks for those of stages that the pair has
-/// not got, too, before it leaves out their code.
+/// Returns the row and the node of a stage of the table. The compiler also evaluates this for
+/// stages that the pair does not have, before it removes their code.
 const fn table_entry<M: EmbeddedPair>(stage: usize) -> (&'static [(usize, f64)], f64) {
     if stage <= M::NODES.len() {
         (M::ROWS[stage - 2], M::NODES[stage - 1])
@@ -87,8 +86,8 @@ const fn table_entry<M: EmbeddedPair>(stage: usize) -> (&'static [(usize, f64)],
 }
 
 impl<W: Scalar> StepStages<W> {
-    /// Memory of the pair `M` for a run from `start`; `wide` makes numbers of
-    /// tolerances.
+    /// Allocates the workspace of the pair `M` for a run from `start`. `wide` converts the
+    /// tolerances to `W`.
     pub(super) fn new<M: EmbeddedPair, T: Real>(
         options: &Options<T>,
         start: Vec<W>,
@@ -115,7 +114,8 @@ impl<W: Scalar> StepStages<W> {
         }
     }
 
-    /// Stages 2 to [`EmbeddedPair::STAGES`], from stage 1 in place, and the end of the step.
+    /// Computes stages 2 to [`EmbeddedPair::STAGES`] and the state at the end of the step, after
+    /// stage 1 has been evaluated.
     #[inline(always)]
     pub(super) fn make<M: EmbeddedPair, S: RightHandSide<W>>(
         &mut self,
@@ -133,7 +133,7 @@ impl<W: Scalar> StepStages<W> {
         Ok(())
     }
 
-    /// The stages beyond the end of the step.
+    /// Computes the additional stages that the dense output needs.
     #[inline(always)]
     pub(super) fn make_dense<M: EmbeddedPair, S: RightHandSide<W>>(
         &mut self,
@@ -150,7 +150,8 @@ impl<W: Scalar> StepStages<W> {
         Ok(())
     }
 
-    /// Evaluates the rates of a stage at y + h (sum of row).
+    /// Evaluates the rates of stage `number` at y + h · Σ (row · rates), with the start y and the
+    /// length h of the step.
     #[inline(always)]
     fn make_stage<M: EmbeddedPair, S: RightHandSide<W>>(
         &mut self,
@@ -169,7 +170,8 @@ impl<W: Scalar> StepStages<W> {
         system.evaluate(number, span.node(node), stage, &mut rates[..n])
     }
 
-    /// The state at the end of the step: y + h (sum of row).
+    /// Computes the state at the end of the step, y + h · Σ (row · rates), with the start y and the
+    /// length h of the step.
     #[inline(always)]
     fn finish<M: EmbeddedPair, S: RightHandSide<W>>(&mut self, system: &S, step: W) {
         let row = const { M::ROWS[M::STAGES - 1] };
@@ -189,13 +191,13 @@ impl<W: Scalar> StepStages<W> {
         }
     }
 
-    /// Starts anew from `values`, whose rates are not known.
+    /// Restarts from the state `values`, whose rates are not known yet.
     pub(super) fn restart(&mut self, values: &[W]) {
         self.start.copy_from_slice(values);
         self.start_residue.fill(W::from_f64(0.0));
     }
 
-    /// Rates at the start of the first step: stage 1.
+    /// Evaluates the rates at the start of the first step: stage 1.
     #[inline(always)]
     pub(super) fn evaluate_start<S: RightHandSide<W>>(
         &mut self,
@@ -206,7 +208,7 @@ impl<W: Scalar> StepStages<W> {
         system.evaluate(1, time, &self.start[..n], &mut self.rates[..n])
     }
 
-    /// Rates at the end of the step, at time `time`, which are stage 1 of the next
+    /// Evaluates the rates at the end of the step, at time `time`. They are stage 1 of the next
     /// step.
     #[inline(always)]
     pub(super) fn evaluate_end<M: EmbeddedPair, S: RightHandSide<W>>(
@@ -219,8 +221,8 @@ impl<W: Scalar> StepStages<W> {
         system.evaluate(M::STAGES + 1, time, &self.end[..n], rates)
     }
 
-    /// Rates after an Euler step, into the place of stage 2; returns the norm of
-    /// their change.
+    /// Evaluates the rates after an Euler step and stores them as stage 2. Returns the norm of
+    /// their change since the start of the step.
     #[inline(always)]
     pub(super) fn euler_change<S: ErrorScale<W>>(
         &mut self,
@@ -240,8 +242,8 @@ impl<W: Scalar> StepStages<W> {
         Ok(self.norm(system, &self.rates[n..2 * n]))
     }
 
-    /// Euclidean norm of a vector whose components are divided by their
-    /// tolerances at the start of the step.
+    /// Returns the Euclidean norm of a vector whose components are divided by their tolerances at
+    /// the start of the step.
     #[inline(always)]
     pub(super) fn norm<S: ErrorScale<W>>(&self, system: &S, vector: &[W]) -> W {
         let mut squares = W::from_f64(0.0);
@@ -254,14 +256,14 @@ impl<W: Scalar> StepStages<W> {
         squares.sqrt()
     }
 
-    /// Rates at the start of the step.
+    /// Returns the rates at the start of the step.
     #[inline(always)]
     pub(super) fn start_rates(&self) -> &[W] {
         &self.rates[..self.start.len()]
     }
 
-    /// Sums over the components of the squares of (sum of row)/tolerance, for each
-    /// of the rows.
+    /// Returns, for each of the rows, the sum over the components of the squares of Σ (row · rates)
+    /// / tolerance, from which error norms are computed.
     #[inline(always)]
     pub(super) fn squares<S: ErrorScale<W>, const N: usize>(
         &self,
@@ -290,9 +292,8 @@ impl<W: Scalar> StepStages<W> {
         squares
     }
 
-    /// Scaled error of a step of length `size` with one estimate h (sum of row):
-    /// its root mean square over the components (Solving ODEs I, section II.4, eq.
-    /// (4.11)).
+    /// Returns the scaled error of a step of length `size` with a single estimate h · Σ (row ·
+    /// rates): its root mean square over the components (Solving ODEs I, section II.4, eq. (4.11)).
     #[inline(always)]
     pub(super) fn mean_square_error<S: ErrorScale<W>>(
         &self,
@@ -304,8 +305,8 @@ impl<W: Scalar> StepStages<W> {
         size * (squares / count(system)).sqrt()
     }
 
-    /// Makes the end of the step the start of the next one, where it is accepted, in the
-    /// first `n` components. The rates there become its first stage.
+    /// Makes the end of each accepted step the start of the next one, in the first `n` components.
+    /// The rates at the end become the first stage.
     #[inline(always)]
     pub(super) fn advance<M: EmbeddedPair, S: ErrorScale<W>>(
         &mut self,
@@ -328,21 +329,21 @@ impl<W: Scalar> StepStages<W> {
     }
 }
 
-/// Number of components.
+/// Returns the number of components, as a number of type `W`.
 #[inline(always)]
 pub(super) fn count<W: Scalar, S: ErrorScale<W>>(system: &S) -> W {
     W::from_f64(system.dimension() as f64)
 }
 
-/// The rates of the stages of a row, in its order; what is left of the array is
-/// empty. Slices of one known length: no bounds check is left inside the loops.
+/// Returns the rates of the stages of a row, in the row's order; the rest of the array is empty.
+/// All slices have one known length, so that loops need no bounds checks.
 #[inline(always)]
 pub(super) fn terms<'a, W>(
     row: &[(usize, f64)],
     rates: &'a [W],
     n: usize,
 ) -> [&'a [W]; MOST_STAGES] {
-    // One check of the length, for the last stage, spares those of the others.
+    // One check of the length, for the last stage, makes those of the others needless.
     let count = row.last().map_or(0, |&(stage, _)| stage * n);
     let rates = &rates[..count];
     let mut terms: [&[W]; MOST_STAGES] = [&[]; MOST_STAGES];
@@ -352,10 +353,10 @@ pub(super) fn terms<'a, W>(
     terms
 }
 
-/// Component i of the sum of a row over the stages.
+/// Returns component i of the sum of a row over the stages.
 ///
-/// No closure takes part: those are functions of their own, which the compiler
-/// may leave without the instructions of the registers.
+/// It uses no closures, because a closure is a separate function, which may be compiled without the
+/// vector instructions.
 #[inline(always)]
 pub(super) fn sum<W: Scalar>(row: &[(usize, f64)], terms: &[&[W]; MOST_STAGES], i: usize) -> W {
     let mut sum = W::from_f64(row[0].1) * terms[0][i];

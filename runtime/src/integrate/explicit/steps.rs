@@ -1,4 +1,4 @@
-//! The steps of all explicit pairs, with one state.
+//! Integration of a single trajectory by an explicit pair.
 
 use core::convert::identity;
 use core::marker::PhantomData;
@@ -31,22 +31,22 @@ impl<M: EmbeddedPair, T: Real, O: Ode<T> + ?Sized> Integrator<T, O> for Explicit
     }
 }
 
-/// A pair at work.
+/// Data of an explicit pair during a run of one trajectory.
 #[derive(Clone, Debug)]
 #[allow(unreachable_pub)]
 pub struct PairSteps<M, T> {
     limits: StepLimits<T>,
     control: StepControl<T>,
     pub(super) stages: StepStages<T>,
-    /// Length of the step that is tried next; none before the first one.
+    /// Length of the step to try next; `None` before the first one.
     next: Option<T>,
-    /// The last step.
+    /// Time and length of the last step.
     span: StepSpan<T>,
     pair: PhantomData<M>,
 }
 
 impl<M: EmbeddedPair, T: Real> PairSteps<M, T> {
-    /// The pair about to leave `start`.
+    /// Prepares the pair for a run from `start`.
     pub(super) fn new(options: &Options<T>, start: &State<T>) -> Self {
         Self {
             limits: StepLimits::new(options),
@@ -61,8 +61,7 @@ impl<M: EmbeddedPair, T: Real> PairSteps<M, T> {
         }
     }
 
-    /// Evaluates the rates at the start and chooses the length of the first
-    /// step.
+    /// Evaluates the rates at the start and chooses the length of the first step.
     fn first_step<O: Ode<T> + ?Sized>(
         &mut self,
         system: &mut Evaluator<'_, T, O>,
@@ -106,7 +105,7 @@ impl<M: EmbeddedPair, T: Real, O: Ode<T> + ?Sized> Steps<T, O> for PairSteps<M, 
             let (end_time, last) = goal.plan(time, step);
             self.limits
                 .check(system.report, goal.steps_before, (time, step, last))?;
-            // The difference of the rounded times, so that they add up.
+            // The length is the difference of the rounded times, so that lengths add up to times.
             let span = StepSpan {
                 time,
                 step: end_time - time,
@@ -119,7 +118,7 @@ impl<M: EmbeddedPair, T: Real, O: Ode<T> + ?Sized> Steps<T, O> for PairSteps<M, 
             if M::ERROR_USES_END && finite {
                 self.stages.evaluate_end::<M, _>(system, end_time)?;
             }
-            // An end that is not finite may be the fault of the step: try less.
+            // If the end is not finite, the step may be too long: try a shorter one.
             let error = if finite {
                 M::error(&self.stages, system, length)
             } else {

@@ -1,18 +1,18 @@
-//! The steps of all methods with steps of a given length.
+//! Integration of a single trajectory by methods with steps of constant length.
 
-// A sealed trait names the types.
+// The types are public because a sealed trait mentions them.
 #![allow(unreachable_pub)]
 
-use super::place::GridPlace;
+use super::grid_position::GridPosition;
 use crate::integrate::checkpoint::Memory;
 use crate::integrate::evaluator::{Evaluator, NonFinite};
 use crate::integrate::piece::Piece;
 use crate::integrate::steps::{Failure, Goal, Steps};
 use crate::scalar::Real;
 
-/// How a method makes a step of a given length, and the memory that it takes.
+/// Method that makes steps of a given length, with its data during a run.
 pub trait FixedStep<T: Real, O: ?Sized> {
-    /// Evaluates what the first step needs; `time` is that of the start.
+    /// Evaluates the rates that the first step needs; `time` is the start time.
     fn begin(&mut self, system: &mut Evaluator<'_, T, O>, time: T) -> Result<(), NonFinite<T>>;
 
     /// Makes a step of length `step` (negative: backwards) from `time`.
@@ -23,23 +23,23 @@ pub trait FixedStep<T: Real, O: ?Sized> {
         step: T,
     ) -> Result<(), Failure<T>>;
 
-    /// The step and its polynomial.
+    /// Returns the last step and its polynomial.
     fn piece(&self) -> Piece<'_, T>;
 
-    /// Makes the end of the step the start of the next.
+    /// Makes the end of the step the start of the next step.
     fn advance(&mut self);
 
-    /// Takes these values for the start of the next step.
+    /// Sets the start of the next step.
     fn set_start(&mut self, values: &[T]);
 
-    /// Saves what the next step depends on, beside the state at its start, or restores
-    /// it.
+    /// Saves or restores the numbers on which the next step depends, in addition to the state at
+    /// its start.
     fn remember(&mut self, memory: &mut Memory<T>);
 }
 
-/// A method whose end of a step may be moved.
+/// Method that allows the state at the end of a step to be corrected.
 pub trait Corrected<T: Real, O: ?Sized>: FixedStep<T, O> {
-    /// Adds `correction` to the end of the step, at the time `time`.
+    /// Adds `correction` to the state at the end of the step; `time` is the time there.
     fn correct(
         &mut self,
         system: &mut Evaluator<'_, T, O>,
@@ -48,16 +48,16 @@ pub trait Corrected<T: Real, O: ?Sized>: FixedStep<T, O> {
     ) -> Result<(), Failure<T>>;
 }
 
-/// A method at work with steps on a grid of times.
+/// Data of a method that makes steps of constant length along a grid of times.
 #[derive(Clone, Debug)]
 pub struct GridSteps<S, T> {
     method: S,
-    place: GridPlace<T>,
+    place: GridPosition<T>,
 }
 
 impl<S, T: Real> GridSteps<S, T> {
-    /// The steps of `method` on the grid of `place`.
-    pub(super) fn new(method: S, place: GridPlace<T>) -> Self {
+    /// Creates the integrator from a method and its position on the grid of times.
+    pub(super) fn new(method: S, place: GridPosition<T>) -> Self {
         Self { method, place }
     }
 }
@@ -82,7 +82,7 @@ impl<S: FixedStep<T, O>, T: Real, O: ?Sized> Steps<T, O> for GridSteps<S, T> {
             let step = goal.direction * planned.length;
             match self.method.make(system, time, step) {
                 Ok(()) => {}
-                // Rates that are not finite may be those of an iterate far off.
+                // Rates that are not finite may come from an iterate far from the solution.
                 Err(_) if self.place.halve(planned) => {
                     system.report.rejected += 1;
                     continue;

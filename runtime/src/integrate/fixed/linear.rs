@@ -1,4 +1,4 @@
-//! Dense linear systems, small ones.
+//! Small dense linear systems.
 
 use alloc::vec;
 use alloc::vec::Vec;
@@ -6,17 +6,17 @@ use alloc::vec::Vec;
 use crate::integrate::checkpoint::Memory;
 use crate::scalar::Real;
 
-/// A square matrix, factorised in place with row exchanges.
+/// A square matrix that is factorised in place by Gaussian elimination with row exchanges.
 #[derive(Clone, Debug)]
 pub(crate) struct Factored<T> {
     n: usize,
-    /// Rows, one after the other.
+    /// Entries of the matrix, row by row.
     pub(crate) entries: Vec<T>,
     pivots: Vec<usize>,
 }
 
 impl<T: Real> Factored<T> {
-    /// Room for a matrix of `n` rows.
+    /// Allocates a matrix of `n` rows.
     pub(crate) fn new(n: usize) -> Self {
         Self {
             n,
@@ -25,8 +25,8 @@ impl<T: Real> Factored<T> {
         }
     }
 
-    /// Gaussian elimination with partial pivoting of the matrix in `entries`:
-    /// 2n³/3 operations. False if it is singular or not finite.
+    /// Factorises the matrix in `entries` by Gaussian elimination with partial pivoting, in 2n³/3
+    /// operations. Returns false if it is singular or not finite.
     pub(crate) fn factorise(&mut self) -> bool {
         let n = self.n;
         let a = &mut self.entries;
@@ -67,7 +67,8 @@ impl<T: Real> Factored<T> {
         }
     }
 
-    /// Replaces the right-hand side by the solution: 2n² operations.
+    /// Solves the linear system in place: replaces the right-hand side `right` by the solution, in
+    /// 2n² operations.
     pub(crate) fn solve(&self, right: &mut [T]) {
         let n = self.n;
         let a = &self.entries;
@@ -99,7 +100,7 @@ mod tests {
             .entries
             .copy_from_slice(&[0.0, 2.0, 1.0, 1.0, 1.0, 0.0, 4.0, 0.0, 2.0]);
         assert!(matrix.factorise());
-        // A (1, 2, 3).
+        // The matrix times (1, 2, 3).
         let mut right = [7.0, 3.0, 10.0];
         matrix.solve(&mut right);
         for (found, expected) in right.into_iter().zip([1.0, 2.0, 3.0]) {

@@ -1,11 +1,11 @@
-//! Methods with steps of a given length.
+//! Integration methods with steps of constant length.
 
 mod gauss;
 mod grid;
+mod grid_position;
 #[cfg(feature = "std")]
 mod lanes;
 mod linear;
-mod place;
 mod projected;
 mod rk4;
 

@@ -1,11 +1,11 @@
-//! Steps that end on a level set of a first integral.
+//! Projection of the state onto a level set of a first integral at the end of each step.
 
 use alloc::vec;
 use alloc::vec::Vec;
 
 use super::gauss::GaussStep;
 use super::grid::{Corrected, FixedStep, GridSteps};
-use super::place::Grid;
+use super::grid_position::Grid;
 use super::rk4::Rk4Step;
 use super::{Gauss, Rk4};
 use crate::integrate::checkpoint::Memory;
@@ -17,34 +17,31 @@ use crate::integrate::steps::Failure;
 use crate::scalar::Real;
 use crate::system::{FirstIntegral, Ode, State};
 
-/// A method whose state is projected onto the level set of a first integral
-/// after every step: the energy at the end of each step is that of the start,
-/// to rounding.
+/// A method whose state is projected onto the level set of a first integral, such as the energy,
+/// after every step. The integral then keeps its initial value up to rounding.
 ///
-/// An option, and no remedy: the projection moves the state along the gradient
-/// of the integral until its *value* is right. The order of the method stays
-/// what it is. All else does not: a Gauss method with it is neither symplectic
-/// nor symmetric, so that other invariants and the structure of phase space
-/// may drift which it would have kept; an error across the gradient, in phase,
-/// stays; and the energy says nothing any more about the accuracy of the run.
-/// Gauss methods do not need it for their energy not to drift. It serves
-/// methods that do drift ([`Rk4`]), and comparisons.
+/// Use this with care. The projection moves the state along the gradient of the integral until
+/// the *value* of the integral is right. The order of the method does not change. But a Gauss
+/// method with projection is neither symplectic nor symmetric, so that other invariants and the
+/// structure of phase space may drift. An error perpendicular to the gradient (in phase) remains.
+/// The energy no longer measures the accuracy of the run. Gauss methods do not need a projection,
+/// since their energy does not drift. It serves methods whose energy drifts ([`Rk4`]), and
+/// comparisons.
 ///
 /// With g the gradient at the end ỹ of the step, y = ỹ + λ g is solved for the
-/// level by Newton's method with the derivative at ỹ: one or two evaluations of
-/// the integral a step beyond the first. Distances are Euclidean in the units of
-/// the state. Inside a step the correction grows in proportion to the time.
-/// Memory: four vectors of the state's length beyond the method's; steps allocate
-/// nothing.
+/// level by Newton's method with the derivative at ỹ. This takes two or three evaluations of the
+/// integral a step. Distances are Euclidean in the units of the state. Within a step the
+/// correction grows in proportion to the time. Memory: four vectors of the state's length in
+/// addition to the method's; steps allocate nothing.
 ///
 /// A state that cannot be projected (the gradient vanishes, as at an equilibrium,
-/// or the level is not reached) is treated as a step that is not solved: it is
-/// halved as often as the method allows, then the run ends with
+/// or the level is not reached) is treated as an unsolved step: the step is halved as often as
+/// the method allows, then the run ends with
 /// [`IntegrationError::NotProjected`](crate::integrate::IntegrationError::NotProjected).
 ///
 /// Source: Hairer, Lubich, Wanner, *Geometric Numerical Integration*, 2nd
-/// edition, Springer 2006, section IV.4, algorithm 4.2; section V.4.1 on what
-/// it costs in structure.
+/// edition, Springer 2006, section IV.4, algorithm 4.2; section V.4.1 on
+/// the loss of structure.
 ///
 /// # Examples
 ///
@@ -75,19 +72,19 @@ use crate::system::{FirstIntegral, Ode, State};
 pub struct Projected<M, I, T = f64> {
     /// The method.
     pub method: M,
-    /// The integral that is kept.
+    /// First integral that keeps its initial value.
     pub integral: I,
-    /// Largest deviation from the level that counts as none, relative to the
-    /// larger of |level| and Σ |g_i y_i|, by which rounding of the state alone
-    /// moves the integral.
+    /// Largest accepted deviation of the integral from its level, relative to the larger of |level|
+    /// and Σ |g_i y_i|, with the gradient g and the state y. Rounding of the state alone changes
+    /// the integral by about the latter.
     pub tolerance: T,
-    /// Newton iterations after which a state counts as not projected.
+    /// Number of Newton iterations after which the projection fails.
     pub iteration_limit: u32,
 }
 
 impl<M, I, T: Real> Projected<M, I, T> {
-    /// The method `method` with the integral kept to a tolerance of eight
-    /// [`Real::EPSILON`], in at most ten iterations.
+    /// Creates `method` with projection to a tolerance of eight [`Real::EPSILON`], in at most ten
+    /// iterations.
     pub fn new(method: M, integral: I) -> Self {
         Self {
             method,
@@ -152,10 +149,10 @@ impl<T: Real, O: Ode<T> + ?Sized, I: FirstIntegral<T> + Clone> Integrator<T, O>
     }
 }
 
-/// Projected steps of a given length.
+/// Integrator that makes projected steps of constant length.
 type ProjectedSteps<S, I, T> = GridSteps<ProjectedStep<S, I, T>, T>;
 
-/// A method at work, and what the projection needs beside it.
+/// State of a method during a run, with the workspace of the projection.
 #[derive(Clone, Debug)]
 #[allow(unreachable_pub)]
 pub struct ProjectedStep<S, I, T> {
@@ -163,7 +160,7 @@ pub struct ProjectedStep<S, I, T> {
     integral: I,
     tolerance: T,
     iteration_limit: u32,
-    /// Value of the integral at the start of the run.
+    /// Value of the first integral at the start of the run.
     level: T,
     gradient: Vec<T>,
     trial: Vec<T>,
@@ -172,7 +169,8 @@ pub struct ProjectedStep<S, I, T> {
 }
 
 impl<S, I: FirstIntegral<T>, T: Real> ProjectedStep<S, I, T> {
-    /// Writes what brings the end of the step to the level to `correction`.
+    /// Computes the correction that moves the end of the step to the level of the first integral,
+    /// and writes it to `correction`.
     fn project<O: ?Sized>(&mut self, time: T, step: T) -> Result<(), Failure<T>>
     where
         S: Corrected<T, O>,
@@ -201,8 +199,8 @@ impl<S, I: FirstIntegral<T>, T: Real> ProjectedStep<S, I, T> {
                 .evaluate(&self.trial, &mut self.trial_gradient)
                 - self.level;
             iterations += 1;
-            // No progress: rounding, or a level that is not there; NaN where the
-            // gradient vanishes.
+            // No progress: only rounding is left, or no state has the level. NaN if the gradient
+            // vanishes.
             let nearer = reached.abs() < deviation.abs();
             if !nearer || iterations > self.iteration_limit {
                 return Err(Failure::NotProjected {
@@ -244,8 +242,8 @@ impl<T: Real, O: ?Sized, S: Corrected<T, O>, I: FirstIntegral<T>> FixedStep<T, O
         self.steps.correct(system, end_time, &self.correction)
     }
 
-    /// Values inside a step that do not follow from its ends are corrected in proportion
-    /// to the time.
+    /// Values within a step that do not follow from its ends are corrected in proportion to the
+    /// time since the start of the step.
     fn piece(&self) -> Piece<'_, T> {
         let piece = self.steps.piece();
         match piece.form {

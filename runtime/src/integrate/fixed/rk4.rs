@@ -1,15 +1,15 @@
 //! The classical Runge–Kutta method.
 
-// A sealed trait names the types.
+// The types are public because a sealed trait mentions them.
 #![allow(unreachable_pub)]
-// One index into all components at once.
+// One index runs through several vectors at once.
 #![allow(clippy::needless_range_loop)]
 
 use alloc::vec;
 use alloc::vec::Vec;
 
 use super::grid::{Corrected, FixedStep, GridSteps};
-use super::place::Grid;
+use super::grid_position::Grid;
 use crate::integrate::checkpoint::Memory;
 use crate::integrate::error::InputError;
 use crate::integrate::evaluator::{Evaluator, NonFinite};
@@ -21,15 +21,14 @@ use crate::integrate::steps::Failure;
 use crate::scalar::{Real, Scalar};
 use crate::system::{Ode, State};
 
-/// The classical Runge–Kutta method of order 4, with steps of one length.
+/// The classical Runge–Kutta method of order 4, with steps of constant length.
 ///
-/// No error estimate: it is here for comparison, and for motions whose steps are
-/// given: many at once in the lanes of vector registers, with the same bits
-/// ([`Ensemble::integrate_in_lanes`]), or frames in real time
-/// ([`Frames`]). Four evaluations a step; values inside a step are those of the cubic
-/// through its ends with their rates (order 3) and cost nothing. Memory: 6
-/// vectors of the state's length; steps allocate nothing. The last step is
-/// shorter where the span is no multiple of the step.
+/// It has no error estimate. Use it for comparisons, for many motions with given steps in the lanes
+/// of vector registers ([`Ensemble::integrate_in_lanes`], with the same bits as a single motion),
+/// or for frames in real time ([`Frames`]). A step takes four evaluations. Values within a step are
+/// those of the cubic through its ends and their rates (order 3), without further evaluations.
+/// Memory: 6 vectors of the state's length; steps allocate nothing. The last step is shorter if the
+/// span is not a multiple of the step.
 ///
 /// Source: Hairer, Nørsett, Wanner, *Solving Ordinary Differential Equations
 /// I*, 2nd edition, Springer 1993, section II.1, table 1.2.
@@ -53,15 +52,14 @@ use crate::system::{Ode, State};
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Rk4<T> {
-    /// Length of the steps, positive whatever the direction.
+    /// Length of the steps, positive for both directions of time.
     pub step: T,
     /// Number of steps after which a run ends with an error.
     pub step_limit: u64,
 }
 
 impl<T: Real> Rk4<T> {
-    /// The method with steps of length `step`, without a limit on their
-    /// number.
+    /// Creates the method with steps of length `step`, without a limit on their number.
     pub fn new(step: T) -> Self {
         Self {
             step,
@@ -87,26 +85,26 @@ impl<T: Real, O: Ode<T> + ?Sized> Integrator<T, O> for Rk4<T> {
     }
 }
 
-/// The vectors that a step of [`Rk4`] works on: of one state, or of one in each lane.
+/// Workspace of a step of [`Rk4`], for one state or for several states in lanes.
 #[derive(Clone, Debug)]
 pub struct Rk4Step<W> {
     pub(in crate::integrate) start: Vec<W>,
     pub(in crate::integrate) end: Vec<W>,
-    /// State at which rates are evaluated, and these.
+    /// State at which rates are evaluated, followed by the rates.
     stage: Vec<W>,
     rates: Vec<W>,
     pub(in crate::integrate) start_rates: Vec<W>,
     pub(super) end_rates: Vec<W>,
-    /// Length of the step, with its sign.
+    /// Length of the step; negative in a run backwards in time.
     pub(super) length: W,
 }
 
 impl<W: Scalar> Rk4Step<W> {
-    /// Stages up to the end of the step.
+    /// Number of stages, not counting the evaluation at the end of the step.
     #[cfg(feature = "std")]
     pub(super) const STAGES: usize = 4;
 
-    /// Memory for steps from `start`.
+    /// Allocates the workspace for steps from `start`.
     pub(in crate::integrate) fn new(start: Vec<W>) -> Self {
         let zeros = || vec![W::from_f64(0.0); start.len()];
         Self {
@@ -120,7 +118,7 @@ impl<W: Scalar> Rk4Step<W> {
         }
     }
 
-    /// Evaluates the rates at the start: stage 1.
+    /// Evaluates the rates at the start of the step: stage 1.
     #[inline(always)]
     pub(in crate::integrate) fn evaluate_start<S: RightHandSide<W>>(
         &mut self,
@@ -131,10 +129,11 @@ impl<W: Scalar> Rk4Step<W> {
         system.evaluate(1, time, &self.start[..n], &mut self.start_rates[..n])
     }
 
-    /// Makes stages 2 to 4, from stage 1 in place, and the end of the step.
+    /// Computes stages 2 to 4 and the state at the end of the step, after stage 1 has been
+    /// evaluated.
     ///
-    /// Products and sums are not fused, whatever the numbers: a state in a lane gets the bits
-    /// that it gets alone.
+    /// It never uses fused multiply–add, so that a state in a lane has the same bits as a single
+    /// state.
     #[inline(always)]
     pub(in crate::integrate) fn make_end<S: RightHandSide<W>>(
         &mut self,
@@ -145,7 +144,7 @@ impl<W: Scalar> Rk4Step<W> {
         let n = system.dimension();
         let (start, stage) = (&self.start[..n], &mut self.stage[..n]);
         let (rates, first) = (&mut self.rates[..n], &self.start_rates[..n]);
-        // The end holds the sum of the rates until it is known.
+        // `end` holds the sum of the rates first.
         let end = &mut self.end[..n];
         let half = W::from_f64(0.5) * span.step;
         let two = W::from_f64(2.0);
@@ -171,7 +170,7 @@ impl<W: Scalar> Rk4Step<W> {
         Ok(())
     }
 
-    /// Evaluates the rates at the end: stage 5, and stage 1 of the next step.
+    /// Evaluates the rates at the end of the step: stage 5, which is stage 1 of the next step.
     #[inline(always)]
     pub(super) fn evaluate_end<S: RightHandSide<W>>(
         &mut self,

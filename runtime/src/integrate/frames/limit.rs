@@ -1,4 +1,4 @@
-//! How fast a model can change.
+//! Estimate of the largest rate at which the motion of a model can change.
 
 use alloc::vec;
 use alloc::vec::Vec;
@@ -7,13 +7,13 @@ use core::f64::consts::{FRAC_PI_2, TAU};
 use crate::scalar::{Dual, Real, Scalar};
 use crate::system::{Pendulum, Workspace};
 
-/// Longest sub-step of any model, s.
+/// Longest sub-step of any model, in s.
 const LONGEST: f64 = 0.01;
 
-/// States at rest that are looked at.
+/// Number of states at rest at which rates are examined.
 const CONFIGURATIONS: usize = 10;
 
-/// Steps of an iteration, and those at its end that count.
+/// Numbers of steps of the power iteration: all, and the last ones that are averaged.
 const ITERATIONS: usize = 24;
 const COUNTED: usize = 8;
 
@@ -22,12 +22,12 @@ const COUNTED: usize = 8;
 ///
 /// ρ = γ/2 + √(γ²/4 + ω²) bounds the rates at which small motions about a state at rest
 /// change, with the largest eigenfrequency ω (rad/s) of stiffness and masses there, and
-/// the largest rate γ (1/s) of friction and drag. Both are the largest of ten states:
-/// all links hanging, all folded by right angles, and eight in disorder. Stable is the
-/// classical Runge–Kutta method up to 2.61/ρ.
+/// the largest rate γ (1/s) of friction and drag. Both are the largest of ten states: all links
+/// hanging, all folded by right angles, and eight random ones. The classical Runge–Kutta method is
+/// stable up to 2.61/ρ.
 ///
-/// Effort: 500 evaluations of the model in dual numbers. NaN where the model has no
-/// accelerations.
+/// Takes 500 evaluations of the model in dual numbers. Returns NaN if the accelerations of the
+/// model are not finite.
 ///
 /// # Examples
 ///
@@ -51,7 +51,7 @@ pub fn longest_sub_step<T: Real, P: Pendulum<T>>(model: &P) -> T {
         let angle = |link: usize| match configuration {
             0 => 0.0,
             1 => FRAC_PI_2 * (link % 4) as f64,
-            // Multiples of the golden ratio lie everywhere.
+            // Multiples of the golden ratio are spread evenly.
             _ => TAU * ((0.618_033_988_749_895 * (1 + link * 8 + configuration) as f64) % 1.0),
         };
         let (stiffness, friction) = (
@@ -60,7 +60,7 @@ pub fn longest_sub_step<T: Real, P: Pendulum<T>>(model: &P) -> T {
         );
         let half = T::from_f64(0.5) * friction;
         let rate = half + Scalar::sqrt(half * half + stiffness);
-        // Not the maximum of Real, which keeps the number beside NaN.
+        // Not `Real::max`, which ignores NaN.
         largest = if rate <= largest { largest } else { rate };
     }
     let longest = T::from_f64(LONGEST);
@@ -68,7 +68,7 @@ pub fn longest_sub_step<T: Real, P: Pendulum<T>>(model: &P) -> T {
     if step > longest { longest } else { step }
 }
 
-/// The variable by which accelerations are derived.
+/// Variable by which accelerations are differentiated: angle or angular velocity.
 #[derive(Clone, Copy, PartialEq)]
 enum Of {
     Angles,
@@ -94,7 +94,8 @@ impl<T: Real> SlopeMemory<T> {
         }
     }
 
-    /// The largest size of an eigenvalue of ∂α/∂θ or ∂α/∂ω at rest, by the power method.
+    /// Returns the largest magnitude of an eigenvalue of ∂α/∂θ or ∂α/∂ω for links at rest, by power
+    /// iteration.
     fn largest(
         &mut self,
         model: &impl Pendulum<Dual<T, 1>>,
@@ -104,7 +105,7 @@ impl<T: Real> SlopeMemory<T> {
         for (link, (theta, omega)) in self.theta.iter_mut().zip(&mut self.omega).enumerate() {
             *theta = Dual::constant(T::from_f64(angle(link)));
             *omega = Dual::constant(T::ZERO);
-            // No direction that a symmetry would keep.
+            // A direction that shares no symmetry of the tree.
             let tangent = T::from_f64(0.3 + (0.618_033_988_749_895 * (link + 1) as f64) % 1.0);
             let moved = if of == Of::Angles { theta } else { omega };
             moved.tangents = [tangent];

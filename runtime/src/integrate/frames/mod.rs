@@ -1,4 +1,4 @@
-//! Motion in real time: frame by frame, whatever happens.
+//! Motion in real time, frame by frame, that never fails.
 
 mod limit;
 
@@ -13,41 +13,39 @@ use crate::system::{Ode, State, Workspace};
 
 pub use limit::longest_sub_step;
 
-/// Largest change of an angle in a longest sub-step, rad: what the rates are limited to.
+/// Largest change of an angle in the longest sub-step, in rad. It determines the largest allowed
+/// rate.
 const LARGEST_TURN: f64 = 0.5;
 
-/// Length of the longest frame, s.
+/// Length of the longest frame that is advanced at once, in s.
 const LONGEST_FRAME: f64 = 1.0;
 
-/// A motion in frames that cannot fail: for games, exhibits and controllers.
+/// A motion computed frame by frame that cannot fail, for games, exhibits and controllers.
 ///
-/// [`advance`](Self::advance) cuts a frame into equal sub-steps of the classical
-/// Runge–Kutta method, as few as are not longer than the sub-step of the start. With
-/// that of [`longest_sub_step`] they are stable at rest at any angles, and short enough
-/// that the motion hardly depends on the rate of frames: for a branch of 31 links it is
-/// within 1e-3 rad over a second at 30, 60 and 144 frames a second, which a test asks
-/// for. A sub-step takes four evaluations. Nothing is allocated after the start, and
-/// nothing is kept from one frame to the next but state and time, so that state and
-/// equations may be changed between any two.
+/// [`advance`](Self::advance) cuts a frame into equal sub-steps of the classical Runge–Kutta
+/// method, the smallest number whose length is at most `sub_step`. With the sub-step of
+/// [`longest_sub_step`], steps are stable for links at rest at any angles, and short enough that
+/// the motion hardly depends on the frame rate: for a branch of 31 links it agrees within 1e-3 rad
+/// over a second at 30, 60 and 144 frames a second (tested). A sub-step takes four evaluations.
+/// Nothing is allocated after the start. Only state and time are kept from one frame to the next,
+/// so that state and equations may be changed between frames.
 ///
-/// For a state of angles and their rates, as [`AbsoluteAngles`] and [`UnderTorques`] have
-/// it: the second half of the components are the rates of the first.
+/// The state must hold angles and their rates, as in [`AbsoluteAngles`] and [`UnderTorques`]: the
+/// second half of the components are the rates of the first half.
 ///
-/// # In excess
+/// # Limits
 ///
-/// Rates are limited to half a radian in a longest sub-step. Beyond, all are made
-/// smaller by one factor, which takes kinetic energy away and adds none. A sub-step that
-/// cannot be made like that, after a hit of 10⁶ N for example, is one of Euler's method
-/// with its rates limited in the same way; and where not even the accelerations are
-/// finite, the links stop where they are. So the state stays finite, and its energy is
-/// bounded by that of the largest rates: [`limited`](Self::limited) counts the sub-steps
-/// that were not plain ones.
+/// Rates are limited to half a radian per longest sub-step. If one is larger, all rates are
+/// multiplied by one factor, which reduces the kinetic energy. If such a sub-step is not possible
+/// (after a hit of 10⁶ N, for example), it is replaced by a step of Euler's method with rates
+/// limited in the same manner. If the accelerations are not finite, the links stop where they are.
+/// So the state stays finite and its energy bounded. [`limited`](Self::limited) counts the
+/// sub-steps that were limited.
 ///
-/// A frame longer than a second is one of a second, and one that is negative or no
-/// number is none.
+/// A frame longer than a second counts as one second; a negative or NaN length counts as zero.
 ///
-/// Where friction is so strong that sub-steps get too many, [`Gauss::for_animation`]
-/// solves for steps as long as a frame instead; where frames fail, [`Stepper`] says why.
+/// If strong friction requires too many sub-steps, use [`Gauss::for_animation`], whose steps are as
+/// long as a frame. If the cause of a failure matters, use [`Stepper`], which reports it.
 ///
 /// Source of the limit of stability: Hairer, Wanner, *Solving ODEs II*, 2nd edition,
 /// Springer 1996, section IV.2.
@@ -96,17 +94,17 @@ const LONGEST_FRAME: f64 = 1.0;
 pub struct Frames<O, T> {
     ode: O,
     workspace: Workspace<T>,
-    /// In `f64`, so that frames add up to hours in any `T`.
+    /// Time of the state, in `f64` so that many frames can be added for any `T`.
     time: f64,
-    /// Longest sub-step, s.
+    /// Longest sub-step, in s.
     sub_step: f64,
     largest_rate: T,
     limited: u64,
-    /// The state, and the end of a sub-step that may become it.
+    /// Present state, and the end of a sub-step before it is accepted.
     step: Rk4Step<T>,
 }
 
-/// The equations, finite or not.
+/// Equations of motion, evaluated without a check that the rates are finite.
 struct FrameSystem<'a, O, T> {
     ode: &'a O,
     workspace: &'a mut Workspace<T>,
@@ -140,12 +138,12 @@ impl<O: Ode<T>, T: Real> RightHandSide<T> for FrameSystem<'_, O, T> {
 }
 
 impl<O: Ode<T>, T: Real> Frames<O, T> {
-    /// A motion from `start`, whose sub-steps are no longer than `sub_step` (s).
+    /// Starts a motion at `start`, with sub-steps of at most `sub_step` (s).
     ///
     /// # Errors
     ///
-    /// [`InputError`] if the start is not finite or does not fit the equations, or if
-    /// the sub-step is not positive and finite.
+    /// [`InputError`] if the start is not finite or does not fit the equations, or if the sub-step
+    /// is not positive and finite.
     pub fn new(ode: O, start: &State<T>, sub_step: T) -> Result<Self, InputError<T>> {
         check_start(&ode, (start.time, &start.values))?;
         if !(sub_step.is_finite() && sub_step > T::ZERO) {
@@ -165,14 +163,14 @@ impl<O: Ode<T>, T: Real> Frames<O, T> {
         })
     }
 
-    /// Moves on by `duration` (s), the length of a frame.
+    /// Advances the motion by `duration` (s), the length of a frame.
     pub fn advance(&mut self, duration: T) {
         let duration = duration.to_f64();
         if duration.is_nan() || duration <= 0.0 {
             return;
         }
         let duration = duration.min(LONGEST_FRAME);
-        // As many as are needed, but none more for rounding.
+        // The smallest sufficient number; rounding does not add one more.
         let ratio = duration / self.sub_step;
         let whole = ratio as u64;
         let count = whole + u64::from(ratio - whole as f64 > 1e-6 || whole == 0);
@@ -185,42 +183,41 @@ impl<O: Ode<T>, T: Real> Frames<O, T> {
         self.time = start + duration;
     }
 
-    /// The state.
+    /// Returns the state.
     pub fn state(&self) -> &[T] {
         &self.step.start
     }
 
-    /// Time of the state, s.
+    /// Returns the time of the state, in s.
     pub fn time(&self) -> f64 {
         self.time
     }
 
-    /// The equations.
+    /// Returns the equations.
     pub fn ode(&self) -> &O {
         &self.ode
     }
 
-    /// The equations, to change them.
+    /// Returns the equations for changes between two frames.
     pub fn ode_mut(&mut self) -> &mut O {
         &mut self.ode
     }
 
-    /// Number of sub-steps so far in which rates were limited.
+    /// Returns the number of sub-steps so far in which the rates of links were limited.
     pub fn limited(&self) -> u64 {
         self.limited
     }
 
-    /// Rate, rad/s, that none exceeds after a sub-step.
+    /// Returns the largest angular velocity (rad/s) that a link can have after a sub-step.
     pub fn largest_rate(&self) -> T {
         self.largest_rate
     }
 
-    /// Goes on from another time and state.
+    /// Continues from another time and state.
     ///
     /// # Errors
     ///
-    /// [`InputError`] if they are not finite or of another length; nothing has changed
-    /// then.
+    /// [`InputError`] if they are not finite or have another length. Nothing changes in that case.
     pub fn set_state(&mut self, time: f64, values: &[T]) -> Result<(), InputError<T>> {
         check_start(&self.ode, (T::from_f64(time), values))?;
         let own = &mut self.step.start;
@@ -241,7 +238,7 @@ impl<O: Ode<T>, T: Real> Frames<O, T> {
         let Rk4Step { start, end, .. } = &mut self.step;
         let n = start.len() / 2;
         let (angles, rates) = end.split_at(n);
-        // False for a rate that is no number.
+        // False if a rate is NaN.
         let slow = rates
             .iter()
             .fold(true, |slow, rate| slow & (rate.abs() <= limit));
@@ -250,7 +247,7 @@ impl<O: Ode<T>, T: Real> Frames<O, T> {
             return;
         }
         self.limited += 1;
-        // The end of the sub-step counts where angles have not run away on its way.
+        // The end of the sub-step is accepted only if no angle changed too much during it.
         let turn = T::from_f64(2.0) * limit * length;
         let pairs = start.iter().zip(&*end).take(n);
         let within = pairs.fold(true, |within, (a, b)| within & ((*b - *a).abs() <= turn));
@@ -265,7 +262,8 @@ impl<O: Ode<T>, T: Real> Frames<O, T> {
         }
     }
 
-    /// Makes a step of the classical Runge–Kutta method, whose end may be anything.
+    /// Makes a sub-step of the classical Runge–Kutta method. Values at its end may be infinite or
+    /// NaN.
     fn runge_kutta(&mut self, length: T) {
         let time = T::from_f64(self.time);
         let system = &mut FrameSystem {
@@ -278,15 +276,15 @@ impl<O: Ode<T>, T: Real> Frames<O, T> {
         let Ok(()) = self.step.make_end(system, span);
     }
 
-    /// Makes a sub-step of the symplectic Euler method with limited rates, from the rates at
-    /// the start; links stop where accelerations are not finite.
+    /// Makes a sub-step of the symplectic Euler method with limited rates, from the rates at the
+    /// start. Links stop if accelerations are not finite.
     fn limited_euler(&mut self, length: T) {
         let Rk4Step {
             start, start_rates, ..
         } = &mut self.step;
         let (angles, rates) = start.split_at_mut(start_rates.len() / 2);
         let accelerations = &start_rates[angles.len()..];
-        // Of the sum, infinity is left out by the size of its terms.
+        // The sum of the sizes avoids an infinite sum of two finite terms.
         let largest = size(rates) + length * size(accelerations);
         if !(largest.is_finite() && all_finite(accelerations)) {
             rates.fill(T::ZERO);
@@ -306,7 +304,7 @@ impl<O: Ode<T>, T: Real> Frames<O, T> {
     }
 }
 
-/// Largest absolute value; numbers that are none do not count.
+/// Returns the largest absolute value in a slice; NaN is ignored.
 fn size<T: Real>(values: &[T]) -> T {
     values
         .iter()

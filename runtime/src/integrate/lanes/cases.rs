@@ -1,20 +1,22 @@
-//! Trajectories to integrate: starts of one system, or of one each.
+//! Trajectories to integrate in lanes: several starts of one system, or one start of each of
+//! several systems.
 
 use crate::system::State;
 
-/// Trajectories to integrate.
+/// List of trajectories to integrate.
 #[derive(Debug)]
 pub(crate) enum Cases<'a, O, T> {
-    /// Of one system.
+    /// Starts of one common system.
     Starts(&'a O, &'a [State<T>]),
-    /// Each of its own.
+    /// Systems, each with its start.
     Pairs(&'a [(O, State<T>)]),
-    /// Each of its own, with times of its own at which states are wanted, the last its end.
+    /// Systems, each with its start and its output times; a trajectory ends at its last output
+    /// time.
     Timed(&'a [(O, State<T>)], &'a [&'a [T]]),
 }
 
 impl<'a, O, T> Cases<'a, O, T> {
-    /// Number of trajectories.
+    /// Returns the number of trajectories.
     pub(crate) fn len(&self) -> usize {
         match self {
             Self::Starts(_, starts) => starts.len(),
@@ -22,7 +24,7 @@ impl<'a, O, T> Cases<'a, O, T> {
         }
     }
 
-    /// System and start of one of them.
+    /// Returns the system and the start of trajectory number `index`.
     pub(crate) fn get(&self, index: usize) -> Option<(&'a O, &'a State<T>)> {
         match *self {
             Self::Starts(system, starts) => starts.get(index).map(|start| (system, start)),
@@ -32,12 +34,12 @@ impl<'a, O, T> Cases<'a, O, T> {
         }
     }
 
-    /// Returns true if their systems may differ.
+    /// Returns true if the trajectories may have different systems.
     pub(super) fn models_differ(&self) -> bool {
         !matches!(self, Self::Starts(..))
     }
 
-    /// The times of one of them, if they have their own.
+    /// Returns the output times of trajectory number `index`, if each trajectory has its own.
     pub(super) fn times(&self, index: usize) -> Option<&'a [T]> {
         match *self {
             Self::Timed(_, times) => Some(times.get(index).copied().unwrap_or_default()),

@@ -1,4 +1,4 @@
-//! Conditions that end a trajectory in its lane.
+//! Conditions that end a trajectory in a lane of a vector register.
 
 use alloc::vec::Vec;
 use core::convert::Infallible;
@@ -17,8 +17,8 @@ use crate::scalar::{Lane, Real};
 use crate::simd::Simd;
 use crate::system::State;
 
-/// A function of time and state at whose first zero crossing a trajectory in a lane ends, as
-/// [`Event`]s that are terminal end a run: for
+/// A condition that ends a trajectory in a lane: the first zero crossing of a function of time and
+/// state. It corresponds to a terminal [`Event`] of a single run, and is used by
 /// [`Ensemble::integrate_in_lanes_until`](crate::ensemble::Ensemble::integrate_in_lanes_until).
 #[derive(Clone, Copy)]
 pub struct Ending<'a, T> {
@@ -28,9 +28,11 @@ pub struct Ending<'a, T> {
 }
 
 impl<'a, T: Real> Ending<'a, T> {
-    /// The first zero crossing of `function(time, state)` in the direction `crossing`.
+    /// Creates the condition: the first zero crossing of `function(time, state)` in the direction
+    /// `crossing`.
     ///
-    /// The sign is looked at in eight places a step; two zeros between two of them are not seen.
+    /// The sign is checked at eight times a step. Two zeros between neighbouring checks are not
+    /// found.
     pub fn new(crossing: Crossing, function: &'a (dyn Fn(T, &[T]) -> T + Sync)) -> Self {
         Self {
             function,
@@ -39,8 +41,9 @@ impl<'a, T: Real> Ending<'a, T> {
         }
     }
 
-    /// Looks at the sign in `checks` equidistant places a step, one being its end; zero counts
-    /// as one. Where only the end is looked at, steps without a change of sign cost nothing more.
+    /// Sets the number of equidistant times per step at which the sign is checked, the last one at
+    /// the end of the step; zero counts as one. If only the end is checked, steps without a change
+    /// of sign need no dense output.
     pub fn with_checks(self, checks: u32) -> Self {
         Self { checks, ..self }
     }
@@ -66,16 +69,16 @@ impl<T> fmt::Debug for Ending<'_, T> {
     }
 }
 
-/// The events of some endings.
+/// Returns the conditions as events.
 pub(super) fn events<'a, T: Real>(endings: &[Ending<'a, T>]) -> Vec<Event<'a, T>> {
     endings.iter().map(Ending::event).collect()
 }
 
-/// The search for the ends of all trajectories under way.
+/// Search for the times at which conditions end the trajectories in the lanes.
 pub(super) struct LaneEndings<'a, T, R> {
     events: &'a [Event<'a, T>],
     searches: [Option<CrossingSearch<'a, T>>; WIDEST],
-    /// Room for one state in each lane.
+    /// Workspace for one state in each lane.
     values: Vec<R>,
 }
 
@@ -88,7 +91,7 @@ impl<'a, T: Lane, R: Simd<T>> LaneEndings<'a, T, R> {
         }
     }
 
-    /// Begins to look at trajectories that have got their lanes.
+    /// Starts the search for trajectories that have just been put into their lanes.
     pub(super) fn begin(&mut self, steps: &impl LaneSteps<T, R>, fresh: &Flags) {
         for lane in (0..R::LANES).filter(|&lane| fresh[lane]) {
             let start = numbers_in(steps.start(), lane);
@@ -96,8 +99,8 @@ impl<'a, T: Lane, R: Simd<T>> LaneEndings<'a, T, R> {
         }
     }
 
-    /// Ends the trajectories whose condition is met in the steps that were accepted, one a lane
-    /// at a time.
+    /// Ends the trajectories whose condition is met within an accepted step, at most one condition
+    /// per lane.
     pub(super) fn take(
         &mut self,
         steps: &mut impl LaneSteps<T, R>,
@@ -148,16 +151,16 @@ impl<'a, T: Lane, R: Simd<T>> LaneEndings<'a, T, R> {
     }
 }
 
-/// The step of one lane.
+/// The accepted step of the trajectory in one lane.
 struct StepInLane<'s, S, T, R> {
     steps: &'s mut S,
     runs: &'s mut Runs<T>,
     values: &'s mut [R],
     lane: usize,
     span: StepSpan<R>,
-    /// True once values inside the steps of all lanes can be had.
+    /// True if the dense output of all lanes has been computed.
     prepared: &'s mut bool,
-    /// True once that of this lane is known to be finite.
+    /// True if the dense output of this lane has been checked to be finite.
     judged: bool,
 }
 

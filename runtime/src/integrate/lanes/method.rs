@@ -1,6 +1,6 @@
-//! The traits of methods that work in lanes.
+//! Traits of methods that integrate trajectories in lanes.
 
-// A user names the trait of the methods as a bound, and nothing it is made of.
+// Users name the trait of methods as a bound, and none of the types that it mentions.
 #![allow(unreachable_pub)]
 
 use alloc::vec::Vec;
@@ -14,12 +14,12 @@ use crate::scalar::Lane;
 use crate::simd::Simd;
 use crate::system::LaneOde;
 
-/// A method that integrates systems of the type `O` in the lanes of vector
-/// registers, for [`Ensemble`](crate::ensemble::Ensemble): the explicit
-/// Runge–Kutta pairs ([`Dop853`], [`Dopri5`], [`Verner98`]), [`Rk4`] and [`Gauss`] any
-/// [`LaneOde`], [`Taylor`] absolute angles of models that give their Taylor coefficients.
+/// A method that integrates systems of the type `O` in the lanes of vector registers, for
+/// [`Ensemble`](crate::ensemble::Ensemble). The explicit Runge–Kutta pairs ([`Dop853`], [`Dopri5`],
+/// [`Verner98`]), [`Rk4`] and [`Gauss`] integrate any [`LaneOde`]; [`Taylor`] integrates models in
+/// absolute angles that provide their Taylor coefficients.
 ///
-/// No other crate can implement it.
+/// Other crates cannot implement this trait.
 ///
 /// [`Dop853`]: crate::integrate::Dop853
 /// [`Dopri5`]: crate::integrate::Dopri5
@@ -33,74 +33,74 @@ use crate::system::LaneOde;
     note = "all other methods go by `Ensemble::integrate`, start by start on all threads"
 )]
 pub trait LaneMethod<O: LaneOde<T>, T: Lane>: Sync {
-    /// The method at work.
+    /// Data of the method that lasts for a run.
     #[doc(hidden)]
     type Steps<R: Simd<T>>: LaneSteps<T, R, System = O>;
 
-    /// Passes a method whose options suit states of `dimension` components.
+    /// Checks that the options suit states of `dimension` components.
     #[doc(hidden)]
     fn check(&self, dimension: usize) -> Result<(), InputError<T>>;
 
-    /// Passes a start that has the digits that the method needs.
+    /// Checks that the method's tolerances do not need more digits than the start has.
     #[doc(hidden)]
     fn check_start(&self, values: &[T]) -> Result<(), InputError<T>> {
         let _ = values;
         Ok(())
     }
 
-    /// Returns the memory, with this system in every lane.
+    /// Allocates the data of the method, with the system `system` in every lane.
     #[doc(hidden)]
     fn steps<R: Simd<T>>(&self, system: &O) -> Self::Steps<R>;
 }
 
-/// A method at work, with a state in each lane.
+/// Data of a method that integrates one trajectory in each lane.
 pub trait LaneSteps<T: Lane, R: Simd<T>> {
-    /// Whose motion it steps along.
+    /// Type of the system in each lane.
     type System: LaneOde<T>;
 
-    /// The systems in the lanes.
+    /// Returns the systems of all lanes.
     fn models(&mut self) -> &mut Models<Self::System, T, R>;
 
-    /// Puts a state into a lane. Without one the lane gets zeros, of which
-    /// sines and cosines are sooner done than of what is not finite.
+    /// Sets the state of the trajectory in a lane. `None` sets zeros, whose sines and cosines are
+    /// computed faster than those of NaN.
     fn set(&mut self, lane: usize, values: Option<&[T]>);
 
-    /// The states at the start of the step.
+    /// Returns the states of all lanes at the start of the step.
     fn start(&self) -> &[R];
 
-    /// The states at the end of the step.
+    /// Returns the states of all lanes at the end of the step.
     fn end(&self) -> &[R];
 
-    /// Chooses steps as far as the step before has not; `fresh` lanes have not
-    /// made one.
+    /// Chooses the step lengths that do not follow from a previous step. `fresh` marks the lanes
+    /// that have none.
     fn prepare(&mut self, runs: &mut Runs<T>, fresh: &Flags);
 
-    /// Plans the steps of all lanes: their lengths and their ends. Returns the lanes whose
-    /// step may not be tried.
+    /// Plans lengths and ends of the steps of all lanes. Returns the lanes whose step is not
+    /// allowed.
     fn plan(&mut self, runs: &mut Runs<T>) -> Flags;
 
-    /// Why the step of such a lane may not be tried.
+    /// Returns the reason why the planned step of a lane is not allowed; `None` if it is allowed.
     fn why_stuck(&self, runs: &Runs<T>, lane: usize) -> Option<Failure<T>>;
 
-    /// Makes a step in all lanes; `size` is its length.
+    /// Makes a step in all lanes; `size` holds the absolute values of the step lengths.
     fn attempt(&mut self, span: StepSpan<R>, size: R);
 
-    /// Judges the steps that were made: counts them, chooses the next ones where
-    /// these follow from them, and returns which are accepted.
+    /// Accepts or rejects the steps, counts them, and chooses the next step lengths if they follow
+    /// from these steps. Returns the lanes whose step is accepted.
     fn judge(&mut self, runs: &mut Runs<T>) -> Flags;
 
-    /// Computes what values inside the step need.
+    /// Computes the coefficients of the dense output of all lanes.
     fn prepare_dense(&mut self, span: StepSpan<R>);
 
-    /// Counts that for a lane.
+    /// Counts the evaluations that the dense output took in a lane, and checks that it is finite.
     ///
     /// # Errors
-    /// Time and state where the rates are not finite.
+    /// Time and state at which the rates are not finite.
     fn judge_dense(&self, runs: &mut Runs<T>, lane: usize) -> Result<(), (T, Vec<T>)>;
 
-    /// Writes the solutions at these fractions of the steps.
+    /// Writes the solutions within the steps, each at a fraction (0 to 1) of its step.
     fn value(&self, fraction: R, out: &mut [R]);
 
-    /// Makes the end of the step the start of the next one in these lanes.
+    /// Makes the end of each accepted step the start of the next one.
     fn advance(&mut self, accepted: R::Mask);
 }

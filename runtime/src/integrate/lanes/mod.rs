@@ -1,11 +1,11 @@
-//! Trajectories of systems in the lanes of vector registers.
+//! Integration of many trajectories in the lanes of vector registers.
 //!
-//! A method computes its steps for all lanes at once; every lane has its own
-//! time, step, error and control, by the rules of the plain method. A lane
-//! whose step is rejected keeps its state, and a lane whose trajectory has ended
-//! gets the next start, with the constants of its system. Lanes without a trajectory stand still.
+//! A method computes its steps for all lanes at once. Every lane has a separate time, step, error
+//! and control, by the rules of single trajectories. A lane whose step is rejected keeps its state.
+//! A lane whose trajectory has ended gets the next start, with the constants of its system. Lanes
+//! without a trajectory do not move.
 
-// One index into all lanes at once.
+// One index runs through the arrays of all lanes.
 #![allow(clippy::needless_range_loop)]
 
 mod cases;
@@ -38,26 +38,26 @@ use crate::scalar::{InstructionSet, Lane};
 use crate::simd::{Kernel, Simd, dispatch};
 use crate::system::{LaneOde, State};
 
-/// A request for all trajectories.
+/// List of trajectories to integrate in lanes, with the method, the output times and the end.
 pub(crate) struct Task<'a, M, O, T> {
     pub(crate) instructions: InstructionSet,
     pub(crate) method: &'a M,
     pub(crate) cases: Cases<'a, O, T>,
-    /// Times at which states are wanted, of cases without their own.
+    /// Output times of all trajectories that have no separate ones.
     pub(crate) times: &'a [T],
-    /// None: where it starts.
+    /// End time of all trajectories; `None` ends each trajectory at its start.
     pub(crate) end: Option<T>,
-    /// What ends a trajectory before.
+    /// Conditions that end a trajectory before its end time.
     pub(crate) endings: &'a [Ending<'a, T>],
 }
 
 impl<M, O, T: Lane> Task<'_, M, O, T> {
-    /// Times at which states of a case are wanted.
+    /// Returns the output times of trajectory number `index`.
     fn times(&self, index: usize) -> &[T] {
         self.cases.times(index).unwrap_or(self.times)
     }
 
-    /// Where a case is to end; none: where it starts.
+    /// Returns the end time of trajectory number `index`; `None` ends it at its start.
     fn end(&self, index: usize) -> Option<T> {
         match self.cases.times(index) {
             Some(times) => times.last().copied(),
@@ -66,11 +66,11 @@ impl<M, O, T: Lane> Task<'_, M, O, T> {
     }
 }
 
-/// Integrates the cases whose indices `next` gives, until it gives none, and
-/// hands each outcome to `done` with its index.
+/// Integrates the trajectories whose indices `next` returns, until it returns `None`, and passes
+/// each outcome with its index to `done`.
 ///
-/// Allocates its registers once; a trajectory allocates where it begins and
-/// where it ends, and no step does.
+/// Registers are allocated once. A trajectory allocates when it starts and when it ends; steps
+/// allocate nothing.
 pub(crate) fn integrate<M, O, T>(
     task: &Task<'_, M, O, T>,
     next: &mut dyn FnMut() -> Option<usize>,
@@ -84,8 +84,8 @@ pub(crate) fn integrate<M, O, T>(
     dispatch::run_in_registers(task.instructions, kernel);
 }
 
-/// Compiled once for a method and a system: whoever gives the cases and takes the outcomes is
-/// asked once a trajectory.
+/// Integration loop, compiled once per method and system: `next` and `done` are called through
+/// pointers, once per trajectory.
 struct LaneDriver<'a, M, O, T> {
     task: &'a Task<'a, M, O, T>,
     next: &'a mut dyn FnMut() -> Option<usize>,
@@ -102,7 +102,7 @@ where
 
     #[inline(always)]
     fn run<R: Simd<T>>(mut self) {
-        // Without any there is nothing to do.
+        // The list is empty.
         let Some((first, _)) = self.task.cases.get(0) else {
             return;
         };
@@ -125,7 +125,7 @@ where
                 endings.begin(&steps, &fresh);
             }
             steps.prepare(&mut runs, &fresh);
-            self.hand_over_failed(&mut steps, &mut runs);
+            self.report_failed(&mut steps, &mut runs);
             let (span, size) = self.plan(&mut steps, &mut runs);
             steps.attempt(span, size);
             let accepted = steps.judge(&mut runs);
@@ -141,7 +141,7 @@ where
             if ended {
                 self.finish(&mut steps, &mut runs);
             }
-            self.hand_over_failed(&mut steps, &mut runs);
+            self.report_failed(&mut steps, &mut runs);
             fresh = [false; WIDEST];
             if runs.active[..R::LANES].contains(&false) {
                 fresh = self.fill(&mut steps, &mut runs);
@@ -158,7 +158,7 @@ where
 {
     fn refuse_all(&mut self, error: &InputError<T>) {
         while let Some(index) = (self.next)() {
-            // A fault of the start comes first, as in the plain method.
+            // An error of the start is reported first, as for single trajectories.
             let case = self.task.cases.get(index);
             let error = match case.map(|(system, start)| self.check(index, system, start)) {
                 Some(Err(error)) => error,
@@ -175,8 +175,8 @@ where
         self.task.method.check_start(&start.values)
     }
 
-    /// Gives a case to every lane without a trajectory, as long as there are any.
-    /// Returns which have got one.
+    /// Assigns a trajectory to every free lane, as long as any remain. Returns the lanes that
+    /// received one.
     fn fill<R: Simd<T>>(
         &mut self,
         steps: &mut impl LaneSteps<T, R, System = O>,
@@ -211,8 +211,8 @@ where
         fresh
     }
 
-    /// Time and step of every lane, and the lengths of the steps. Trajectories
-    /// that may not go on leave their lanes.
+    /// Returns the time and step of every lane, and the absolute step lengths. Trajectories that
+    /// cannot continue are removed from their lanes.
     #[inline(always)]
     fn plan<R: Simd<T>>(
         &mut self,
@@ -230,7 +230,7 @@ where
                     runs.fail(lane, failure, last);
                 }
             }
-            self.hand_over_failed(steps, runs);
+            self.report_failed(steps, runs);
         }
         let (mut step, mut size): (Numbers<T>, Numbers<T>) = (runs.time, runs.time);
         for lane in 0..R::LANES {
@@ -244,9 +244,9 @@ where
         (span, register(&size))
     }
 
-    /// Hands over the trajectories that have failed or were stopped.
+    /// Passes the outcomes of trajectories that failed or were stopped to `done`.
     #[inline(always)]
-    fn hand_over_failed<R: Simd<T>>(
+    fn report_failed<R: Simd<T>>(
         &mut self,
         steps: &mut impl LaneSteps<T, R, System = O>,
         runs: &mut Runs<T>,
@@ -258,9 +258,8 @@ where
         }
     }
 
-    /// Puts a system that is in motion into a lane whose trajectory has failed.
-    /// One that failed in motion might fail at rest too, and slow down the other
-    /// lanes.
+    /// Replaces the system of a lane whose trajectory has failed by the system of another lane. A
+    /// system that failed in motion might also fail at rest, which would slow down the other lanes.
     #[cold]
     fn replace_model<R: Simd<T>>(
         &self,
@@ -272,12 +271,12 @@ where
             && let Some(index) = runs.any()
             && let Some((system, _)) = self.task.cases.get(index)
         {
-            // It is in a lane already, so that its constants fit.
+            // The system is in another lane already, so its constants fit.
             let _ = steps.models().set(lane, system);
         }
     }
 
-    /// Hands over the trajectories that have reached the end.
+    /// Passes the outcomes of trajectories that have reached their end to `done`.
     fn finish<R: Simd<T>>(&mut self, steps: &mut impl LaneSteps<T, R>, runs: &mut Runs<T>) {
         for lane in 0..R::LANES {
             if runs.active[lane] && runs.time[lane] == runs.end[lane] {

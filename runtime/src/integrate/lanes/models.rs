@@ -1,6 +1,6 @@
-//! Systems side by side: one in each lane.
+//! Systems of equations in the lanes, one in each.
 
-// The interface of a sealed trait names the type.
+// The types are public because a sealed trait mentions them.
 #![allow(unreachable_pub)]
 
 use alloc::vec::Vec;
@@ -12,22 +12,21 @@ use crate::scalar::Lane;
 use crate::simd::Simd;
 use crate::system::LaneOde;
 
-/// The systems of all lanes, as one system whose constants are registers.
+/// The systems of all lanes, stored as one system whose constants are registers.
 ///
-/// Constants are known by their place in the order in which
-/// [`LaneOde::on_scalar`] converts them: that of one model goes into its lane of
-/// the register at the same place.
+/// A constant is identified by its index in the order in which [`LaneOde::on_scalar`] converts
+/// constants. Each model's constant goes into its lane of the register with the same index.
 pub struct Models<O: LaneOde<T>, T: Lane, R: Simd<T>> {
-    /// All of them at once.
+    /// The systems of all lanes, as one system with registers as constants.
     pub(crate) registers: O::Of<R>,
-    /// Constants of the system in their order.
+    /// Constants of the systems, in the order of conversion.
     constants: Vec<R>,
     dimension: usize,
     shape: usize,
 }
 
 impl<O: LaneOde<T>, T: Lane, R: Simd<T>> Models<O, T, R> {
-    /// Puts one system into every lane.
+    /// Creates the systems with the same system in every lane.
     pub(crate) fn splat(system: &O) -> Self {
         let constants = RefCell::new(Vec::new());
         let registers = convert(system, &|constant| {
@@ -43,7 +42,7 @@ impl<O: LaneOde<T>, T: Lane, R: Simd<T>> Models<O, T, R> {
         }
     }
 
-    /// Returns the number of components of a state: a constant where the type tells it.
+    /// Returns the number of components of a state, as a compile-time constant if the type has one.
     #[inline(always)]
     pub(crate) fn dimension(&self) -> usize {
         match O::DIMENSION {
@@ -52,10 +51,10 @@ impl<O: LaneOde<T>, T: Lane, R: Simd<T>> Models<O, T, R> {
         }
     }
 
-    /// Puts a system into a lane; those in the others stay.
+    /// Puts a system into a lane and leaves the other lanes unchanged.
     ///
     /// # Errors
-    /// It differs from the first one in more than constants.
+    /// If the system differs from the first one in more than its constants.
     pub(crate) fn set(&mut self, lane: usize, system: &O) -> Result<(), InputError<T>> {
         let (expected, found) = (self.dimension, system.dimension());
         if expected != found {
@@ -68,7 +67,7 @@ impl<O: LaneOde<T>, T: Lane, R: Simd<T>> Models<O, T, R> {
         let places = Cell::from_mut(&mut *constants).as_slice_of_cells();
         let next = Cell::new(0);
         let registers = convert(system, &|constant| {
-            // Too many are refused below.
+            // Surplus constants are refused below.
             let Some(place) = places.get(next.replace(next.get() + 1)) else {
                 return R::splat(constant);
             };
@@ -86,7 +85,8 @@ impl<O: LaneOde<T>, T: Lane, R: Simd<T>> Models<O, T, R> {
     }
 }
 
-/// Returns a system of registers: in one function, whatever `convert` does with the constants.
+/// Converts a system to one whose constants are registers. Takes `&dyn Fn` so that the function is
+/// compiled once for all conversions.
 fn convert<O: LaneOde<T>, T: Lane, R: Simd<T>>(system: &O, convert: &dyn Fn(T) -> R) -> O::Of<R> {
     system.on_scalar(convert)
 }

@@ -1,6 +1,6 @@
-//! The trajectories in the lanes: their times, steps, accounts and samples.
+//! Trajectories in the lanes of vector registers: their times, steps, reports and samples.
 
-// One index into all lanes at once.
+// One index runs through the arrays of all lanes.
 #![allow(clippy::needless_range_loop)]
 #![allow(unreachable_pub)]
 
@@ -15,40 +15,41 @@ use crate::integrate::steps::{Failure, Goal, StepLimits, towards};
 use crate::scalar::Real;
 use crate::system::State;
 
-/// One yes or no a lane.
+/// One flag for each lane.
 pub(crate) type Flags = [bool; WIDEST];
 
-/// The end of a trajectory, good or bad.
+/// Outcome of a trajectory, with its samples.
 #[derive(Clone, Debug)]
 pub(crate) struct Outcome<T> {
-    /// Last state and account of the trajectory, or why it failed.
+    /// Last state and report of the trajectory, or its error.
     pub(crate) end: Result<Solution<T>, IntegrationError<T>>,
-    /// The states at the times asked for, one after the other, as far as it came.
+    /// Trajectories in the lanes, stored as one array per quantity, so that each step consists of
+    /// short loops without branches.
     pub(crate) samples: Vec<T>,
 }
 
-/// The trajectories under way, number by number and not one by one: what is done
-/// for all of them in every step are then short loops without branches.
+/// Trajectories in the lanes, as one array for each quantity, so that the work of every step is
+/// short loops without branches.
 ///
-/// In a lane without a trajectory everything is zero.
+/// All numbers of a lane without a trajectory are zero.
 #[derive(Debug)]
 pub struct Runs<T> {
-    /// True for the lanes that have a trajectory.
+    /// True for each lane that has a trajectory.
     pub(crate) active: Flags,
-    /// Place of each trajectory among the cases.
+    /// Index, in the list of all trajectories, of the trajectory in each lane.
     index: [usize; WIDEST],
-    /// Start of the step.
+    /// Time at the start of the step in each lane.
     pub(crate) time: Numbers<T>,
-    /// Where it is to end.
+    /// End time of the trajectory.
     pub(crate) end: Numbers<T>,
-    /// 1, or −1 backwards.
+    /// Direction of the run: 1 forwards, −1 backwards in time.
     pub(crate) direction: Numbers<T>,
-    /// Length of the step that is tried next.
+    /// Length of the step to try next in each lane.
     pub(crate) step: Numbers<T>,
-    /// End of the step that is tried, and its length with its sign.
+    /// End time of the step that is being tried, and its signed length.
     pub(crate) end_time: Numbers<T>,
     pub(crate) length: Numbers<T>,
-    /// True where that is the end of the trajectory.
+    /// True if the step being tried reaches the end of the trajectory.
     pub(crate) last: Flags,
     pub(crate) accepted: [u64; WIDEST],
     pub(crate) rejected: [u64; WIDEST],
@@ -57,9 +58,10 @@ pub struct Runs<T> {
     longest: Numbers<T>,
     pub(crate) next_step: Numbers<T>,
     samples: [Vec<T>; WIDEST],
-    /// Number of times that these belong to.
+    /// Number of output times whose samples have been taken.
     sampled: [usize; WIDEST],
-    /// Trajectories that have failed or were stopped since one last looked, with their lanes.
+    /// Trajectories that failed or were stopped and have not been reported yet: lane, index,
+    /// outcome.
     failed: Vec<(usize, usize, Outcome<T>)>,
 }
 
@@ -88,7 +90,7 @@ impl<T: Real> Runs<T> {
         }
     }
 
-    /// Puts a trajectory into a lane.
+    /// Puts a trajectory into a lane and sets its start time and end time.
     pub(super) fn begin(&mut self, lane: usize, index: usize, time: T, end: T) {
         self.active[lane] = true;
         self.index[lane] = index;
@@ -97,13 +99,14 @@ impl<T: Real> Runs<T> {
         self.direction[lane] = if end > time { T::ONE } else { -T::ONE };
     }
 
-    /// One of the trajectories under way, by its place among the cases.
+    /// Returns the index of an arbitrary trajectory that is in a lane; `None` if all lanes are
+    /// empty.
     pub(super) fn any(&self) -> Option<usize> {
         let lane = self.active.iter().position(|&active| active)?;
         Some(self.index[lane])
     }
 
-    /// Takes the trajectory out of a lane, with its samples.
+    /// Removes the trajectory from a lane. Returns its index and its samples.
     fn leave(&mut self, lane: usize) -> (usize, Vec<T>) {
         let zero = T::ZERO;
         self.active[lane] = false;
@@ -127,8 +130,8 @@ impl<T: Real> Runs<T> {
         (self.index[lane], core::mem::take(&mut self.samples[lane]))
     }
 
-    /// Plans the steps of all lanes, of the lengths that the control has chosen. Returns
-    /// those that may not be tried.
+    /// Plans the steps of all lanes, with the lengths that the control has chosen. Returns the
+    /// lanes whose step is not allowed.
     #[inline(always)]
     pub(crate) fn plan(&mut self, lanes: usize, limits: &StepLimits<T>) -> Flags {
         let mut stuck = [false; WIDEST];
@@ -136,7 +139,7 @@ impl<T: Real> Runs<T> {
             let (time, step) = (self.time[lane], self.step[lane]);
             let (end_time, last) = towards(self.end[lane], self.direction[lane], time, step);
             self.end_time[lane] = end_time;
-            // The difference of the rounded times, so that they add up.
+            // The length is the difference of the rounded times, so that lengths add up to times.
             self.length[lane] = end_time - time;
             self.last[lane] = last;
             let steps = self.accepted[lane] + self.rejected[lane];
@@ -145,13 +148,13 @@ impl<T: Real> Runs<T> {
         stuck
     }
 
-    /// Why the step of a lane that is stuck may not be tried.
+    /// Returns the reason why the planned step of a lane is not allowed; `None` if it is allowed.
     pub(crate) fn why_stuck(&self, lane: usize, limits: &StepLimits<T>) -> Option<Failure<T>> {
         let attempt = (self.time[lane], self.step[lane], self.last[lane]);
         limits.check(&self.report(lane), 0, attempt).err()
     }
 
-    /// The step that is tried.
+    /// Returns the start time and the length of the step that is being tried in a lane.
     #[inline(always)]
     pub(crate) fn span(&self, lane: usize) -> StepSpan<T> {
         StepSpan {
@@ -160,7 +163,7 @@ impl<T: Real> Runs<T> {
         }
     }
 
-    /// Where the trajectory of a lane is to go.
+    /// Returns the end time and direction of the trajectory in a lane.
     #[inline(always)]
     pub(crate) fn goal(&self, lane: usize) -> Goal<T> {
         Goal {
@@ -170,7 +173,7 @@ impl<T: Real> Runs<T> {
         }
     }
 
-    /// Counts the steps that are accepted.
+    /// Counts accepted and rejected steps.
     #[inline(always)]
     pub(crate) fn count(&mut self, lanes: usize, accepted: &Flags) {
         for lane in 0..lanes.min(WIDEST) {
@@ -183,8 +186,8 @@ impl<T: Real> Runs<T> {
         }
     }
 
-    /// Makes the end of the step the start of the next one in lanes whose step
-    /// was accepted. Returns whether a trajectory has reached its end.
+    /// Makes the end of each accepted step the start of the next one. Returns true if a trajectory
+    /// has reached its end.
     #[inline(always)]
     pub(super) fn advance(&mut self, lanes: usize, accepted: &Flags) -> bool {
         let mut ended = false;
@@ -196,7 +199,8 @@ impl<T: Real> Runs<T> {
         ended
     }
 
-    /// The time of the next sample in a lane, of the `times` of its case, if that is in the step.
+    /// Returns the next output time of a lane if it lies within the step. `times` returns the
+    /// output times of a trajectory.
     #[inline(always)]
     pub(super) fn next_sample<'a>(&self, lane: usize, times: impl Fn(usize) -> &'a [T]) -> Option<T>
     where
@@ -207,7 +211,7 @@ impl<T: Real> Runs<T> {
         (left >= T::ZERO).then_some(time)
     }
 
-    /// Makes room for the samples of a lane, and takes those at the start.
+    /// Allocates the samples of the trajectory in a lane, and takes those at its start time.
     pub(super) fn sample_start(&mut self, lane: usize, times: &[T], values: &[T]) {
         self.samples[lane].reserve_exact(times.len() * values.len());
         while times.get(self.sampled[lane]) == Some(&self.time[lane]) {
@@ -215,13 +219,13 @@ impl<T: Real> Runs<T> {
         }
     }
 
-    /// Takes the next sample of a lane.
+    /// Stores the next sample of the trajectory in a lane.
     pub(super) fn sample(&mut self, lane: usize, values: &[T]) {
         self.samples[lane].extend_from_slice(values);
         self.sampled[lane] += 1;
     }
 
-    /// The account of the trajectory in a lane.
+    /// Returns the report of the trajectory in a lane.
     pub(crate) fn report(&self, lane: usize) -> Report<T> {
         Report {
             accepted: self.accepted[lane],
@@ -234,7 +238,7 @@ impl<T: Real> Runs<T> {
         }
     }
 
-    /// Ends the trajectory in a lane; `last` is the last good state.
+    /// Ends the trajectory in a lane with an error; `last` is the last good state.
     #[cold]
     pub(crate) fn fail(&mut self, lane: usize, failure: Failure<T>, last: State<T>) {
         let end = Err(failure.error(last, &self.report(lane)));
@@ -242,15 +246,15 @@ impl<T: Real> Runs<T> {
         self.failed.push((lane, index, Outcome { end, samples }));
     }
 
-    /// The trajectory in a lane ends because rates or a state are not finite at this
-    /// place; `last` is the last good state.
+    /// Ends the trajectory in a lane because its state or rates are not finite at the given time
+    /// and state; `last` is the last good state.
     #[cold]
     pub(crate) fn non_finite(&mut self, lane: usize, (time, values): (T, Vec<T>), last: State<T>) {
         self.fail(lane, NonFinite { time, values }.into(), last);
     }
 
-    /// The trajectory in a lane ends because the function of an event is NaN; `last` is the last
-    /// good state.
+    /// Ends the trajectory in a lane because the function of an event returned NaN; `last` is the
+    /// last good state.
     #[cold]
     pub(super) fn undefined(&mut self, lane: usize, event: usize, time: T, last: State<T>) {
         let report = Report {
@@ -267,7 +271,7 @@ impl<T: Real> Runs<T> {
         self.failed.push((lane, index, Outcome { end, samples }));
     }
 
-    /// The trajectory in a lane ends at an event, at this time and in this state.
+    /// Ends the trajectory in a lane at an event, at this time and in this state.
     #[cold]
     pub(super) fn stop(&mut self, lane: usize, time: T, values: Vec<T>) {
         let report = Report {
@@ -280,13 +284,13 @@ impl<T: Real> Runs<T> {
         self.failed.push((lane, index, Outcome { end, samples }));
     }
 
-    /// Takes out a trajectory that has failed or was stopped, and was not taken yet.
+    /// Takes the next trajectory that failed or was stopped and has not been reported yet.
     #[inline(always)]
     pub(super) fn take_failed(&mut self) -> Option<(usize, usize, Outcome<T>)> {
         self.failed.pop()
     }
 
-    /// Takes a trajectory out of its lane that has reached its end.
+    /// Removes a trajectory that has reached its end from its lane. Returns its index and outcome.
     pub(super) fn finish(&mut self, lane: usize, values: Vec<T>) -> (usize, Outcome<T>) {
         let time = self.time[lane];
         let end = Ok(Solution {

@@ -1,4 +1,4 @@
-//! States at times within a step.
+//! Samples of trajectories in lanes, at output times within a step.
 
 use alloc::vec;
 use alloc::vec::Vec;
@@ -11,7 +11,7 @@ use crate::scalar::Lane;
 use crate::simd::Simd;
 use crate::system::State;
 
-/// Room for one state in each lane.
+/// Workspace for one state in each lane, from which samples are taken.
 pub(super) struct LaneSamples<T, R> {
     values: Vec<R>,
     one: Vec<T>,
@@ -25,8 +25,9 @@ impl<T: Lane, R: Simd<T>> LaneSamples<T, R> {
         }
     }
 
-    /// Takes the samples within the steps that were accepted, at the `times` of the cases by
-    /// their places, one a lane at a time. A trajectory without values inside its step ends there.
+    /// Takes the samples within the accepted steps, at the output times that `times` returns for
+    /// each trajectory. Takes one sample per lane at a time. A trajectory whose dense output is not
+    /// finite ends there.
     #[inline(always)]
     pub(super) fn take<'a>(
         &mut self,

@@ -1,6 +1,6 @@
-//! The right-hand sides of the systems in the lanes.
+//! Right-hand sides of the systems of equations in the lanes.
 
-// The interface of a sealed trait names the type.
+// The types are public because a sealed trait mentions them.
 #![allow(unreachable_pub)]
 
 use alloc::vec::Vec;
@@ -13,15 +13,16 @@ use crate::scalar::Lane;
 use crate::simd::{Part, Simd, outlined};
 use crate::system::LaneOde;
 
-/// The systems in the lanes, and which of their evaluations were finite.
+/// The systems in the lanes, with a record of the stages at which rates were finite.
 pub struct LaneSystems<O: LaneOde<T>, T: Lane, R: Simd<T>> {
     pub(crate) models: Models<O, T, R>,
-    /// Zero after a stage, NaN from the first stage on whose rates are not finite.
+    /// For each lane, zero after each stage with finite rates; NaN from the first stage on whose
+    /// rates are not finite.
     checks: [R; MOST_STAGES],
 }
 
-/// In a function of its own, which all stages call: equations of large trees
-/// are long.
+/// Evaluates the rates in a separate function that all stages call, because equations of large
+/// trees are long.
 impl<'a, O: LaneOde<T>, T: Lane, R: Simd<T>> Part<0, (R, &'a [R], &'a mut [R])>
     for Models<O, T, R>
 {
@@ -34,7 +35,7 @@ impl<'a, O: LaneOde<T>, T: Lane, R: Simd<T>> Part<0, (R, &'a [R], &'a mut [R])>
 }
 
 impl<O: LaneOde<T>, T: Lane, R: Simd<T>> LaneSystems<O, T, R> {
-    /// One system in every lane.
+    /// Creates the systems with the same system in every lane.
     pub(crate) fn splat(system: &O) -> Self {
         Self {
             models: Models::splat(system),
@@ -42,14 +43,15 @@ impl<O: LaneOde<T>, T: Lane, R: Simd<T>> LaneSystems<O, T, R> {
         }
     }
 
-    /// Numbers that are finite in lanes where the rates of this stage are, and of those
-    /// before it from the second one on.
+    /// Returns, for each lane, a finite number if the rates of the stages from the second to this
+    /// one are finite.
     #[inline(always)]
     pub(crate) fn check(&self, stage: usize) -> Numbers<T> {
         numbers(self.checks[stage - 1])
     }
 
-    /// The first stage from `first` to `last` whose rates are not finite in a lane.
+    /// Returns the first stage, from `first` to `last`, at which the rates of a lane are not
+    /// finite.
     #[cold]
     pub(crate) fn failed_stage(&self, lane: usize, first: usize, last: usize) -> usize {
         let failed = |stage: &usize| !self.check(*stage)[lane].is_finite();
@@ -89,12 +91,12 @@ impl<O: LaneOde<T>, T: Lane, R: Simd<T>> RightHandSide<R> for LaneSystems<O, T, 
     }
 }
 
-/// Systems that are evaluated once more to see time and state of one stage in one lane.
+/// Systems that repeat a step in order to record the time and the state of one stage in one lane.
 pub(crate) struct StageOfLane<'a, O: LaneOde<T>, T: Lane, R: Simd<T>> {
     pub(crate) systems: &'a mut LaneSystems<O, T, R>,
     pub(crate) lane: usize,
     pub(crate) stage: usize,
-    /// Time and state of the stage, once it has been evaluated.
+    /// Time and state of that stage, once it has been evaluated.
     pub(crate) place: (T, Vec<T>),
 }
 

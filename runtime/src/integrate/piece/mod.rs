@@ -1,6 +1,6 @@
-//! The polynomial of one step: what dense output is made of, in all methods.
+//! Polynomial of one step, from which all methods compute their dense output.
 
-// A sealed trait names the types.
+// The types are public because a sealed trait mentions them.
 #![allow(unreachable_pub)]
 
 mod collocation;
@@ -14,32 +14,35 @@ pub(super) use self::series::{Ahead, LastTerms};
 use crate::scalar::{Dual, Real, Scalar};
 use crate::simd::dispatch::in_fours;
 
-/// How a polynomial is written, s being the fraction of the step and r = 1 − s.
+/// Form of the polynomial of a step; s is the fraction of the step, from 0 to 1, and r = 1 − s.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Form {
-    /// y + s (d₀ + r (d₁ + s (d₂ + …))), the terms being d₀, d₁, ….
+    /// Alternating product form y + s (d₀ + r (d₁ + s (d₂ + …))), with the state y at the start;
+    /// the terms are d₀, d₁, ….
     Alternating,
-    /// y + Σ_k d_k b_k(s), the b_k being Bernstein polynomials.
+    /// Sum of Bernstein polynomials b_k: y + Σ_k d_k b_k(s), with the state y at the start; the
+    /// terms are the d_k.
     Bernstein,
-    /// The cubic through both ends; the terms are the rates at the start and,
-    /// apart, those at the end.
+    /// The cubic through both ends of the step. The terms are the rates at the start and, in the
+    /// second list, the rates at the end.
     Hermite,
-    /// The collocation polynomial; the terms are the rates of the stages and, apart,
-    /// a correction that grows with s, if there is one.
+    /// The collocation polynomial. The terms are the rates of the stages; the second list may hold
+    /// a correction that grows with s.
     Collocation(GaussOrder),
-    /// Σ y\[k\] τᵏ; the terms are the coefficients, order by order from y\[0\] on.
+    /// Taylor polynomial Σ y\[k\] τᵏ in the time τ since the start; the terms are the coefficients
+    /// y\[0\], y\[1\], ….
     Taylor,
-    /// The straight line.
+    /// The straight line between the two ends; there are no terms.
     Linear,
 }
 
 impl Form {
-    /// Returns true if the polynomial of a state of `n` components has so many numbers in its
-    /// terms of both kinds. A method's has; a file may say anything.
+    /// Returns true if the two lists of terms have valid lengths for a state of `n` components.
+    /// Used for data that are read from files.
     #[cfg(feature = "serde")]
     pub(super) fn fits(self, n: usize, [terms, apart]: [usize; 2]) -> bool {
-        // How many terms are at least there, and at most.
+        // Smallest and largest number of terms.
         let (terms_of, apart_of) = match self {
             Self::Alternating => (1..=usize::MAX, 0..=0),
             Self::Bernstein => {
@@ -59,7 +62,7 @@ impl Form {
     }
 }
 
-/// A step and the polynomial that leads from its start to its end.
+/// A step, with the polynomial that gives the solution between its ends.
 #[derive(Clone, Copy, Debug)]
 pub struct Piece<'a, T> {
     pub(crate) form: Form,
@@ -67,14 +70,14 @@ pub struct Piece<'a, T> {
     pub(crate) start: &'a [T],
     /// State at the end.
     pub(crate) end: &'a [T],
-    /// Terms of the form, and those that it has apart.
+    /// The two lists of terms of the polynomial.
     pub(crate) terms: [&'a [T]; 2],
-    /// Length of the step, with its sign.
+    /// Length of the step; negative in a run backwards in time.
     pub(crate) length: T,
 }
 
 impl<'a, T: Real> Piece<'a, T> {
-    /// A state, and no step.
+    /// Returns a step of length zero that stays at `state`.
     pub(crate) fn resting(state: &'a [T]) -> Self {
         Self {
             form: Form::Linear,
@@ -99,13 +102,13 @@ impl<'a, T: Real> Piece<'a, T> {
         self.evaluate(fraction, out, |value| value);
     }
 
-    /// Writes the derivative of the solution by the fraction.
+    /// Writes the derivative of the solution with respect to the fraction.
     pub(crate) fn slope(&self, fraction: T, out: &mut [T]) {
         let fraction = Dual::<T, 1>::variable(fraction, 0);
         self.evaluate(fraction, out, |value| value.tangents[0]);
     }
 
-    /// Writes what `part` takes of the values at the fraction `s`.
+    /// Evaluates the polynomial at the fraction `s`, and writes `part` of each component to `out`.
     fn evaluate<S: Lift<T>>(&self, s: S, out: &mut [T], part: impl Fn(S) -> T) {
         let n = self.start.len();
         let [terms, apart] = self.terms;
@@ -157,8 +160,8 @@ impl<'a, T: Real> Piece<'a, T> {
     }
 }
 
-/// A number that a number `W` is taken for: itself, or a constant among numbers with
-/// derivatives.
+/// Conversion of a number of type `W` to `Self`: the same number, or a constant in a number type
+/// with derivatives.
 pub trait Lift<W>: Scalar {
     /// Returns the number.
     fn lift(number: W) -> Self;

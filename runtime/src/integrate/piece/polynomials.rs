@@ -1,6 +1,6 @@
-//! Polynomials between the ends of a step, in numbers of any width.
+//! Polynomials between the two ends of a step, for numbers of any width.
 
-// One index into all components at once.
+// One index runs through several vectors at once.
 #![allow(clippy::needless_range_loop)]
 
 use super::Lift;
@@ -9,7 +9,8 @@ use crate::scalar::Scalar;
 /// Degree of the Bernstein polynomials.
 pub(in crate::integrate) const DEGREE: usize = 8;
 
-/// y + s (d₀ + r (d₁ + s (d₂ + …))), r = 1 − s, for component i of n.
+/// Returns component i (of n) of y + s (d₀ + r (d₁ + s (d₂ + …))), with r = 1 − s, the start y and
+/// the terms d.
 #[inline(always)]
 pub(in crate::integrate) fn alternating<W: Scalar, S: Lift<W>>(
     s: S,
@@ -21,7 +22,7 @@ pub(in crate::integrate) fn alternating<W: Scalar, S: Lift<W>>(
     let r = S::from_f64(1.0) - s;
     let count = terms.len() / n;
     let (mut factor, mut other) = if count % 2 == 1 { (s, r) } else { (r, s) };
-    // From the highest term on, times s and r in turn.
+    // From the highest term down, multiplied by s and r alternately.
     let mut value = S::lift(terms[(count - 1) * n + i]);
     for k in (0..count - 1).rev() {
         value = factor.mul_add(value, S::lift(terms[k * n + i]));
@@ -30,7 +31,8 @@ pub(in crate::integrate) fn alternating<W: Scalar, S: Lift<W>>(
     factor.mul_add(value, S::lift(start))
 }
 
-/// y + Σ_k d_k b_k(s) for component i of n, the b_k(s) being these weights.
+/// Returns component i (of n) of y + Σ_k d_k b_k(s), with the start y, the terms d and the weights
+/// b_k(s).
 #[inline(always)]
 pub(in crate::integrate) fn blend<W: Scalar, S: Lift<W>>(
     weights: &[S; DEGREE],
@@ -46,7 +48,7 @@ pub(in crate::integrate) fn blend<W: Scalar, S: Lift<W>>(
     S::lift(start) + value
 }
 
-/// Bernstein polynomials 1 to 8 of degree 8.
+/// Returns the Bernstein polynomials 1 to 8 of degree 8 at s.
 #[inline(always)]
 pub(in crate::integrate) fn bernstein<W: Scalar>(s: W) -> [W; DEGREE] {
     let [zero, one] = [0.0, 1.0].map(W::from_f64);
@@ -64,9 +66,9 @@ pub(in crate::integrate) fn bernstein<W: Scalar>(s: W) -> [W; DEGREE] {
     inner
 }
 
-/// y + s (Δy + r (d₁ + s (d₂ − d₁))), r = 1 − s, with d₁ = h k₀ − Δy and d₂ = Δy − h k₁: the
-/// cubic through both ends of a step of length h with the rates k₀ and k₁ there, for one
-/// component.
+/// Returns y + s (Δy + r (d₁ + s (d₂ − d₁))), r = 1 − s, with d₁ = h k₀ − Δy and d₂ = Δy − h k₁,
+/// for one component: the cubic through both ends of a step of length h with the rates k₀ and k₁
+/// there.
 #[inline(always)]
 pub(in crate::integrate) fn hermite<W: Scalar, S: Lift<W>>(
     s: S,

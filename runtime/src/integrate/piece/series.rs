@@ -1,17 +1,17 @@
-//! Sums of the polynomial, and the size of its last terms, in the vector
-//! instructions that the machine has for the numbers.
+//! Sums of Taylor polynomials and the sizes of their last terms, computed with the vector
+//! instructions of the machine.
 
 use crate::scalar::{Real, two_sum};
 use crate::simd::{Kernel, Quad, Simd};
 
-/// Writes `start` + Σ y\[k\] τᵏ over k ≥ 1.
+/// Operation that evaluates a Taylor polynomial: writes `start` + Σ y\[k\] τᵏ over k ≥ 1 to `end`.
 pub(in crate::integrate) struct Ahead<'a, T> {
     /// Coefficients y\[k\], order by order.
     pub(in crate::integrate) coefficients: &'a [T],
     pub(in crate::integrate) tau: T,
     pub(in crate::integrate) start: &'a [T],
     pub(in crate::integrate) end: &'a mut [T],
-    /// Rounding errors of `start` and of `end`, if they are to be carried.
+    /// Rounding errors of `start` and of `end`, for compensated sums.
     pub(in crate::integrate) residues: Option<(&'a [T], &'a mut [T])>,
 }
 
@@ -38,9 +38,9 @@ impl<T: Real> Kernel<T> for Ahead<'_, T> {
 }
 
 impl<T: Real> Ahead<'_, T> {
-    /// The components from number `first` on, by Horner's rule in τ² for even
-    /// and odd k > 1 apart. With residues, the rounding errors of the sum with
-    /// y\[1\] and of the product with τ are kept as well.
+    /// Sums the components from `first` on by Horner's rule in τ², separately for even and odd
+    /// k > 1. With residues, the rounding errors of the sum with y\[1\] and of the product with τ
+    /// are kept.
     #[inline(always)]
     fn block<P: Simd<T>, const W: usize>(&mut self, first: usize) {
         let n = self.start.len();
@@ -49,7 +49,7 @@ impl<T: Real> Ahead<'_, T> {
         let (mut odd, mut even) = (zero, zero);
         let linear = load::<T, P, W>(self.coefficients, n + first);
         let rows = self.coefficients.get(2 * n..).unwrap_or_default();
-        // Pairs of an even and an odd order; the highest even one may be alone.
+        // Pairs of an even and an odd order; the highest even order may have no partner.
         let (pairs, alone) = rows.split_at(rows.len() / (2 * n) * (2 * n));
         if !alone.is_empty() {
             even = load::<T, P, W>(alone, first);
@@ -58,7 +58,7 @@ impl<T: Real> Ahead<'_, T> {
             even = load::<T, P, W>(pair, first).plus_product(even, square);
             odd = load::<T, P, W>(pair, n + first).plus_product(odd, square);
         }
-        // Σ y[k] τᵏ⁻¹ over k ≥ 2
+        // The sum Σ y[k] τᵏ⁻¹ over k ≥ 2.
         let rest = even.plus_product(odd, tau) * tau;
         let start = load::<T, P, W>(self.start, first);
         let end = match &mut self.residues {
@@ -80,10 +80,10 @@ impl<T: Real> Ahead<'_, T> {
     }
 }
 
-/// The largest ratios of the last two coefficients to their tolerances, order
-/// by order.
+/// Operation that returns, for each of the last two orders, the largest ratio of a Taylor
+/// coefficient to its tolerance.
 pub(in crate::integrate) struct LastTerms<'a, T> {
-    /// Coefficients of the last two orders.
+    /// Taylor coefficients of the last two orders.
     pub(in crate::integrate) coefficients: &'a [T],
     pub(in crate::integrate) start: &'a [T],
     pub(in crate::integrate) relative: &'a [T],
@@ -129,8 +129,8 @@ impl<T: Real> LastTerms<'_, T> {
             for i in 0..W {
                 let tolerance = absolute[i] + relative[i] * start[i].abs();
                 let ratio = coefficients[i].abs() / tolerance;
-                // A component that is exactly zero by symmetry has no error,
-                // whatever its tolerance: not 0/0.
+                // A component that is exactly zero by symmetry has no error at any tolerance, not
+                // 0/0.
                 let counts = coefficients[i] != T::ZERO;
                 largest[i] = largest[i].max(if counts { ratio } else { T::ZERO });
             }
@@ -138,7 +138,7 @@ impl<T: Real> LastTerms<'_, T> {
     }
 }
 
-/// The values from number `first` on.
+/// Returns the `W` values from index `first` on.
 #[inline(always)]
 fn window<T: Real, const W: usize>(values: &[T], first: usize) -> [T; W] {
     let rest = values.get(first..).unwrap_or_default();

@@ -1,4 +1,4 @@
-//! The Taylor series method in the lanes of vector registers.
+//! The Taylor series method for many trajectories in the lanes of vector registers.
 
 // One index into all lanes at once.
 #![allow(clippy::needless_range_loop)]
@@ -59,10 +59,12 @@ impl<P: TaylorPendulum<T>, T: Lane> LaneMethod<AbsoluteAngles<P>, T> for Taylor<
     }
 }
 
-/// Arguments of an expansion: time, state, coefficients, workspace.
+/// Arguments of the function that computes Taylor coefficients: time, state, coefficients,
+/// workspace.
 type Expansion<'a, R> = (R, &'a [R], &'a mut [R], &'a mut [Quad<R>]);
 
-/// In a function of its own, with registers of its own.
+/// Computes the Taylor coefficients in a separate function, which gets its own allocation of vector
+/// registers.
 impl<'a, P: TaylorPendulum<T>, T: Lane, R: Simd<T>> Part<0, Expansion<'a, R>>
     for Models<AbsoluteAngles<P>, T, R>
 {
@@ -77,7 +79,8 @@ impl<'a, P: TaylorPendulum<T>, T: Lane, R: Simd<T>> Part<0, Expansion<'a, R>>
     }
 }
 
-/// The method at work: its polynomials, and what it works on.
+/// Data of the Taylor series method during a run in lanes: the polynomials, and the states and
+/// steps of all lanes.
 pub struct TaylorInLanes<P: Pendulum<T>, T: Lane, R: Simd<T>> {
     models: Models<AbsoluteAngles<P>, T, R>,
     limits: StepLimits<T>,
@@ -88,27 +91,27 @@ pub struct TaylorInLanes<P: Pendulum<T>, T: Lane, R: Simd<T>> {
     absolute: Vec<R>,
     start: Vec<R>,
     end: Vec<R>,
-    /// Rounding error of `start`, if the sums are compensated.
+    /// Rounding errors of `start`, if the sums are compensated.
     start_residue: Vec<R>,
     /// Rounding error of `end`.
     end_residue: Vec<R>,
-    /// Taylor coefficients at the start, order by order.
+    /// Taylor coefficients at the start of the step, order by order.
     coefficients: Vec<R>,
     work: Vec<Quad<R>>,
-    /// Lengths of the steps, with their signs.
+    /// Lengths of the steps; negative in a run backwards in time.
     step: R,
-    /// Zero where the end is finite, NaN elsewhere.
+    /// Zero in lanes whose state at the end of the step is finite, NaN in the others.
     finite: Numbers<T>,
 }
 
 impl<P: Pendulum<T>, T: Lane, R: Simd<T>> TaylorInLanes<P, T, R> {
-    /// Zero in lanes where all these numbers are finite, NaN in others.
+    /// Returns zero in lanes in which all these numbers are finite, NaN in the others.
     #[inline(always)]
     fn check(values: &[R]) -> Numbers<T> {
         numbers(check_finite(R::from_f64(0.0), values))
     }
 
-    /// Returns the number of components, as a constant where the compiler knows it.
+    /// Returns the number of components of a state, as a compile-time constant if possible.
     #[inline(always)]
     fn dimension(&self) -> usize {
         match P::KNOWN_LINKS {
@@ -117,8 +120,8 @@ impl<P: Pendulum<T>, T: Lane, R: Simd<T>> TaylorInLanes<P, T, R> {
         }
     }
 
-    /// Sizes of the last two terms in units of their tolerances: the largest of
-    /// all components.
+    /// Returns the sizes of the last two terms of the polynomial relative to their tolerances, each
+    /// the largest of all components.
     #[inline(always)]
     fn last_two(&self) -> [R; 2] {
         let n = self.dimension();
@@ -135,8 +138,8 @@ impl<P: Pendulum<T>, T: Lane, R: Simd<T>> TaylorInLanes<P, T, R> {
         [of_before, of_last]
     }
 
-    /// Σ y\[k\] τᵏ over k ≥ 1 for component i, by Horner's rule in τ² for odd and
-    /// even k apart.
+    /// Returns Σ y\[k\] τᵏ over k ≥ 1 for component i, by Horner's rule in τ², separately for odd
+    /// and even k.
     #[inline(always)]
     fn increment(&self, i: usize, tau: R) -> R {
         let n = self.dimension();
@@ -156,7 +159,7 @@ impl<P: Pendulum<T>, T: Lane, R: Simd<T>> TaylorInLanes<P, T, R> {
         even.mul_add(tau, odd) * tau
     }
 
-    /// Ends the trajectory of a lane whose end is not finite.
+    /// Ends the trajectory in a lane whose state at the end of the step is not finite.
     #[cold]
     fn fail(&self, runs: &mut Runs<T>, lane: usize) {
         let start = self.state(lane, runs.time[lane]);
@@ -319,9 +322,9 @@ impl<P: TaylorPendulum<T>, T: Lane, R: Simd<T>> LaneSteps<T, R> for TaylorInLane
     }
 }
 
-/// Tolerances of each component in every lane: relative ones, and absolute ones
-/// that are not zero. Where a component is exactly zero by symmetry, its error is
-/// too: zero over the smallest number, not over zero.
+/// Returns the relative tolerances, and the absolute tolerances (zeros replaced by the smallest
+/// number), of each component in every lane. If a component is exactly zero by symmetry, so is its
+/// error, and the ratio of error and tolerance must not be 0/0.
 fn tolerances<T: Real, R: Simd<T>>(options: &Options<T>, dimension: usize) -> (Vec<R>, Vec<R>) {
     let smallest = smallest_divisor();
     let relative = options.relative.expand(dimension).into_iter();

@@ -12,12 +12,12 @@ use super::options::{Options, Tolerance};
 use crate::scalar::Real;
 use crate::system::{State, TaylorOde};
 
-/// The Taylor series method: each step evaluates the Taylor polynomial of the
-/// solution about its start. For all tolerances, down to rounding.
+/// The Taylor series method: each step evaluates the Taylor polynomial of the solution about the
+/// start of the step. It suits all tolerances, down to rounding.
 ///
-/// Works on systems that give their Taylor coefficients, [`TaylorOde`]: models
-/// whose description says `emit(taylor)` and trees that are read at run time, in
-/// [`AbsoluteAngles`].
+/// It integrates systems that provide their Taylor coefficients ([`TaylorOde`]): in
+/// [`AbsoluteAngles`], models whose description has `emit(taylor)`, and trees that are read at run
+/// time.
 ///
 /// *Order*: p = ⌈8 − 0.65 ln ε⌉ for the smallest tolerance ε, unless
 /// [`with_order`](Self::with_order) sets one. The step is ρ ε^(1/p) at a radius
@@ -64,12 +64,12 @@ pub struct Taylor<T> {
     order: Option<usize>,
 }
 
-/// Orders that can be asked for: the step needs two terms beyond the first, and
-/// beyond the highest nothing is won in any precision of this crate.
+/// Orders that [`Taylor::with_order`] accepts. The choice of the step needs two terms beyond the
+/// first, and orders above the highest improve nothing in any precision of this crate.
 const ORDERS: core::ops::RangeInclusive<usize> = 3..=100;
 
 impl<T: Real> Taylor<T> {
-    /// The method with these options, which are checked when a run starts.
+    /// Creates the method with these options, which are checked when a run starts.
     pub fn new(options: Options<T>) -> Self {
         Self {
             options,
@@ -77,7 +77,7 @@ impl<T: Real> Taylor<T> {
         }
     }
 
-    /// With polynomials of order `order`, 3 to 100, at any tolerance.
+    /// Sets the order of the polynomials, 3 to 100, independent of the tolerance.
     pub fn with_order(self, order: usize) -> Self {
         Self {
             order: Some(order),
@@ -90,7 +90,7 @@ impl<T: Real> Taylor<T> {
         &self.options
     }
 
-    /// The order of the polynomials that a run uses.
+    /// Returns the order of the polynomials that a run uses.
     ///
     /// # Examples
     /// ```
@@ -104,7 +104,7 @@ impl<T: Real> Taylor<T> {
             .unwrap_or_else(|| order_for(smallest(&self.options)))
     }
 
-    /// Passes an order and options that the method has a use for.
+    /// Checks that the method can use the order and the options.
     fn check_options(&self) -> Result<(), InputError<T>> {
         if self.options.beta != T::ZERO {
             let value = self.options.beta;
@@ -123,20 +123,20 @@ impl<T: Real> Taylor<T> {
     }
 }
 
-/// The smallest relative tolerance of use. Terms are left out by it, and no rounding
-/// comes into the length of a step: so it may lie below the rounding of a state, whose
-/// compensated sums hold some digits more of an increment.
+/// Returns the smallest useful relative tolerance. It may be smaller than the rounding of a state:
+/// tolerances only decide which terms are left out, the step length contains no rounding, and
+/// compensated sums keep some more digits of an increment.
 fn smallest_tolerance<T: Real>() -> T {
     T::EPSILON * T::from_f64(1.0 / 1024.0)
 }
 
-/// exp(−2/(p − 1)) for polynomials of order p.
+/// Returns the safety factor exp(−2/(p − 1)) of the step length, for polynomials of order p.
 fn safety<T: Real>(order: usize) -> T {
     let exponent = T::from_f64(-2.0) / T::from_f64((order - 1) as f64);
     T::from_f64(core::f64::consts::E).powf(exponent)
 }
 
-/// p = ⌈8 − 0.65 ln ε⌉, for tolerances above one as for one.
+/// Returns the order p = ⌈8 − 0.65 ln ε⌉ for the tolerance ε; tolerances above one count as one.
 fn order_for<T: Real>(tolerance: T) -> usize {
     // e^(−1/0.65): there is no logarithm without `std`.
     const PER_ORDER: f64 = 0.214_711_172_341_697_3;
@@ -149,8 +149,8 @@ fn order_for<T: Real>(tolerance: T) -> usize {
     order
 }
 
-/// The smallest tolerance that is not zero: relative ones, or absolute ones if
-/// these are all zero.
+/// Returns the smallest nonzero tolerance: the smallest relative one or, if all of these are zero,
+/// the smallest absolute one.
 fn smallest<T: Real>(options: &Options<T>) -> T {
     let least = |tolerance: &Tolerance<T>| {
         let positive = tolerance

@@ -1,15 +1,14 @@
-//! Roots for the choice of the step.
+//! Roots from which the Taylor method computes its step length.
 
 use crate::scalar::Real;
 
-/// The lesser of x^(−1/n) to four digits for two pairs of x ≥ 0 and n ≥ 2, in each of
-/// the first `lanes` lanes: infinite where both x are zero, zero where one is infinite,
-/// NaN where one is NaN.
+/// Returns, in each of the first `lanes` lanes, the smaller of x^(−1/n) for two pairs of x ≥ 0 and
+/// n ≥ 2, to four digits: infinite if both x are zero, zero if one is infinite, NaN if one is NaN.
 ///
-/// A step's length needs no more digits, and a logarithm and an exponential of
-/// full accuracy would take longer than an order of the series. Every step
-/// waits for it: polynomials, in pairs of terms that do not wait for each other,
-/// and no branch, so that the compiler makes vector instructions of them.
+/// A step length needs no more digits, and a logarithm and an exponential of full accuracy would
+/// take longer than an order of the series. Every step waits for this result, so it uses
+/// polynomials, in pairs of terms that do not wait for each other, and no branches, so that the
+/// compiler emits vector instructions.
 #[inline(always)]
 pub(super) fn least_inverse_roots<T: Real, const N: usize>(
     lanes: usize,
@@ -47,7 +46,7 @@ pub(super) fn least_inverse_roots<T: Real, const N: usize>(
     steps
 }
 
-/// log₂ x = e + log₂ m for x = 2ᵉ m, √½ ≤ m < √2, to 3e-05.
+/// Returns log₂ x = e + log₂ m for x = 2ᵉ m with √½ ≤ m < √2, with an error up to 3e-5.
 fn log2(x: f64) -> f64 {
     const FRACTION: u64 = (1 << 52) - 1;
     // Moves the boundary between exponents to √2.
@@ -70,8 +69,8 @@ fn log2(x: f64) -> f64 {
     (exponent + a * t) + square * ((b + c * t) + square * (d + e * t))
 }
 
-/// 2ˣ for |x| < 1,000, to 5e-5: the series of e^(x ln 2) on the rest from a whole
-/// number.
+/// Returns 2ˣ for |x| < 1,000, with an error up to 5e-5: the series of e^(x ln 2) is used for the
+/// distance of x from a whole number.
 fn exp2(x: f64) -> f64 {
     // Adding and subtracting it rounds to a whole number.
     const ROUND: f64 = 6_755_399_441_055_744.0;

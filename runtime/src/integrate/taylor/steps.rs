@@ -1,4 +1,4 @@
-//! The method at work, with one state.
+//! The Taylor series method during a run of a single trajectory.
 
 // A sealed trait names the type.
 #![allow(unreachable_pub)]
@@ -18,7 +18,8 @@ use crate::simd::Quad;
 use crate::simd::dispatch::in_fours;
 use crate::system::TaylorOde;
 
-/// The method at work on states of one dimension, with polynomials of one order.
+/// Data of the Taylor series method during a run, for states of a fixed dimension and polynomials
+/// of a fixed order.
 #[derive(Clone, Debug)]
 pub struct TaylorSteps<T> {
     limits: StepLimits<T>,
@@ -34,16 +35,15 @@ pub struct TaylorSteps<T> {
     start: Vec<T>,
     /// State at the end of the step.
     end: Vec<T>,
-    /// Rounding error of `start`, to be added to it: zero unless the sums are
-    /// compensated.
+    /// Rounding error of `start`, which compensated sums add to it; zero otherwise.
     start_residue: Vec<T>,
     /// Rounding error of `end`.
     end_residue: Vec<T>,
-    /// Taylor coefficients at the start, order by order.
+    /// Taylor coefficients at the start of the step, order by order.
     coefficients: Vec<T>,
-    /// Where the system forms them.
+    /// Workspace in which the system computes the coefficients.
     work: Vec<Quad<T>>,
-    /// Length of the step, with its sign.
+    /// Length of the step; negative in a run backwards in time.
     step: T,
 }
 
@@ -68,8 +68,8 @@ impl<T: Real> TaylorSteps<T> {
         }
     }
 
-    /// Length of the step by the last two terms: the larger of them, in units
-    /// of its tolerance, reaches one.
+    /// Returns the step length at which the larger of the last two terms of the polynomial,
+    /// relative to its tolerance, is one.
     fn step_length(&self) -> T {
         let n = self.start.len();
         let mut ratios = [T::ZERO; 2];
@@ -85,13 +85,13 @@ impl<T: Real> TaylorSteps<T> {
         self.safety * step
     }
 
-    /// Returns true if the last two terms are finite.
+    /// Returns true if the last two terms of the polynomial are finite.
     fn has_finite_end(&self) -> bool {
         let n = self.start.len();
         all_finite(&self.coefficients[(self.order - 1) * n..])
     }
 
-    /// Writes the state at the end of a step of length `step`.
+    /// Computes the state at the end of a step of length `step`.
     #[inline(always)]
     fn make(&mut self, step: T) {
         self.step = step;

@@ -1,4 +1,4 @@
-//! A motion that is kept, with its state at any time.
+//! A computed motion that can be evaluated at any time.
 
 #[cfg(feature = "serde")]
 mod read;
@@ -11,16 +11,15 @@ use super::piece::{Form, Piece};
 use crate::scalar::Real;
 use crate::system::State;
 
-/// A motion that is kept: its steps with their polynomials, as
-/// [`Integrator::trajectory`](super::Integrator::trajectory) or an observer collects
-/// them.
+/// A computed motion that can be evaluated at any time. It stores all steps with their polynomials,
+/// as [`Integrator::trajectory`](super::Integrator::trajectory) or an observer collects them.
 ///
-/// States are those of [`DenseStep::eval`] in the run, bit for bit. Memory for a step: a
-/// state for each term of its polynomial, 8 or 9 beside the two ends for the explicit
-/// pairs, as many as stages for Gauss methods, as orders for Taylor series.
+/// States are identical, bit for bit, to those of [`DenseStep::eval`] in the run. Each step takes
+/// the memory of its two ends and of one state per term of its polynomial: 8 or 9 for the explicit
+/// pairs, one per stage for Gauss methods, one per order for Taylor series.
 ///
-/// With the feature `serde` it is data of serde. What is read is checked first: an error names
-/// the field that does not fit the others.
+/// With the feature `serde` it can be serialised and deserialised. Data that are read are checked:
+/// an error names the field that is inconsistent with the others.
 ///
 /// # Examples
 ///
@@ -53,15 +52,15 @@ use crate::system::State;
 )]
 pub struct Trajectory<T> {
     dimension: usize,
-    /// The start, and the end of each step.
+    /// Start time, followed by the end time of each step.
     times: Vec<T>,
     steps: Vec<Kept<T>>,
-    /// The numbers of the start, then those of each step: its start, its end, its terms
-    /// of both kinds.
+    /// Values of the first state, then those of each step: its start, its end, and the two lists of
+    /// terms of its polynomial.
     numbers: Vec<T>,
 }
 
-/// A step that is kept, without its numbers.
+/// A stored step, without its numbers.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 struct Kept<T> {
@@ -69,12 +68,12 @@ struct Kept<T> {
     length: T,
     /// Place of its first number.
     first: usize,
-    /// Numbers of its terms of both kinds.
+    /// Numbers of values in the two lists of terms of its polynomial.
     terms: [usize; 2],
 }
 
 impl<T: Real> Trajectory<T> {
-    /// The trajectory that has not left `start` yet.
+    /// Creates a trajectory that consists of the state `start` only.
     pub fn new(start: State<T>) -> Self {
         Self {
             dimension: start.values.len(),
@@ -84,12 +83,12 @@ impl<T: Real> Trajectory<T> {
         }
     }
 
-    /// Adds a step, which starts where the trajectory ends.
+    /// Adds a step, which must start at the end of the trajectory.
     ///
     /// # Errors
     ///
-    /// [`DenseError`], if the step starts elsewhere, if its state is of another length,
-    /// or if its values cannot be computed.
+    /// [`DenseError`], if the step starts elsewhere, if its state has another length, or if its
+    /// values cannot be computed.
     pub fn push(&mut self, step: &mut DenseStep<'_, T>) -> Result<(), DenseError<T>> {
         let (start, end) = (step.start_time(), step.end_time());
         let turns = self.times.len() > 1 && (self.end_time() > self.start_time()) != (end > start);
@@ -122,21 +121,22 @@ impl<T: Real> Trajectory<T> {
         self.times.first().copied().unwrap_or(T::NAN)
     }
 
-    /// Time of the end; before the start where the motion goes backwards.
+    /// Returns the end time, which is before the start time in a run backwards.
     pub fn end_time(&self) -> T {
         self.times.last().copied().unwrap_or(T::NAN)
     }
 
-    /// Times of the start and of the ends of all steps, in their order along the run.
+    /// Returns the times of the start and of the ends of all steps, in the order of the run.
     pub fn times(&self) -> &[T] {
         &self.times
     }
 
-    /// The state at `time`. At the ends of a step it is the state there, bit for bit.
+    /// Returns the state at `time`. At the end of a step it is identical, bit for bit, to the state
+    /// of the run.
     ///
     /// # Errors
     ///
-    /// [`DenseError::OutsideStep`] if the trajectory does not come by that time.
+    /// [`DenseError::OutsideStep`] if `time` is outside of the trajectory.
     pub fn at(&self, time: T) -> Result<Vec<T>, DenseError<T>> {
         let mut values = vec![T::ZERO; self.dimension];
         self.at_into(time, &mut values)?;
@@ -147,7 +147,7 @@ impl<T: Real> Trajectory<T> {
     ///
     /// # Errors
     ///
-    /// As [`at`](Self::at), and if `out` has not the length of the state.
+    /// As [`at`](Self::at), and if `out` does not have the length of the state.
     pub fn at_into(&self, time: T, out: &mut [T]) -> Result<(), DenseError<T>> {
         match self.piece(time) {
             Some((ends, piece)) => piece.at(ends, time, out),
@@ -160,13 +160,12 @@ impl<T: Real> Trajectory<T> {
         }
     }
 
-    /// Writes the derivative of the state at `time` to `out`, as
-    /// [`DenseStep::derivative`] does; at the end of a step, that of the step before
-    /// it.
+    /// Writes the derivative of the state at `time` to `out`, as [`DenseStep::derivative`] does;
+    /// where two steps meet, the derivative in the earlier step.
     ///
     /// # Errors
     ///
-    /// As [`at_into`](Self::at_into); a trajectory without steps has none.
+    /// As [`at_into`](Self::at_into); also if the trajectory has no steps.
     pub fn derivative_into(&self, time: T, out: &mut [T]) -> Result<(), DenseError<T>> {
         let Some((ends, piece)) = self.piece(time) else {
             return Err(self.outside(time));
@@ -182,7 +181,7 @@ impl<T: Real> Trajectory<T> {
         }
     }
 
-    /// The first step that `time` lies in, and its times.
+    /// Returns the first step that contains `time`, and the times of its ends.
     fn piece(&self, time: T) -> Option<([T; 2], Piece<'_, T>)> {
         let forwards = self.end_time() >= self.start_time();
         let before = |end: &T| if forwards { *end < time } else { *end > time };

@@ -1,4 +1,4 @@
-//! Trajectories from files, which may say anything.
+//! Trajectories that are read from files, which may contain invalid data.
 
 // The derived code of a public type names the type.
 #![allow(unreachable_pub)]
@@ -9,7 +9,7 @@ use super::{Kept, Trajectory};
 use crate::errors::errors;
 use crate::scalar::Real;
 
-/// A trajectory as a file has it.
+/// Content of a file that should contain a trajectory, before it is checked.
 #[derive(serde::Deserialize)]
 #[serde(rename = "Trajectory")]
 pub struct Unchecked<T> {
@@ -23,32 +23,34 @@ errors! {
     /// Why data are no trajectory.
     #[derive(Clone, Copy, Debug, PartialEq, Eq)]
     pub enum TrajectoryDataError {
-        /// There is no state to start from.
+        /// There are too few numbers for a first state.
         Dimension { dimension: usize, numbers: usize }
             => "`dimension` is {dimension}, and `numbers` has {numbers} numbers: the state of the \
                 start is missing",
-        /// Times and steps do not belong together.
+        /// The number of times is not one more than the number of steps.
         Times { times: usize, steps: usize }
             => "`times` has {times} times, and `steps` {steps} steps: there must be one more time \
                 than steps",
-        /// A time that none of a motion is.
+        /// A time is not finite, or is not in the order of the run.
         Time { index: usize }
-            => "`times[{index}]` must be finite, and go on in the direction of those before",
-        /// A length that no step has.
+            => "`times[{index}]` must be finite, and continue in the direction of the previous \
+                times",
+        /// The length of a step is not finite.
         Length { index: usize } => "`steps[{index}].length` is not finite",
-        /// Numbers of a step stand elsewhere.
+        /// The index of a step's first number is wrong.
         First { index: usize, first: usize, expected: usize }
-            => "`steps[{index}].first` is {first}: numbers of this step begin at {expected}",
+            => "`steps[{index}].first` is {first}: the numbers of this step begin at {expected}",
         /// A polynomial that is none.
         Terms { index: usize, terms: [usize; 2], dimension: usize }
-            => "`steps[{index}].terms` is {terms:?}: a state of `dimension` {dimension} has no \
-                polynomial of its `form` with so many",
-        /// Numbers of a step are missing.
+            => "`steps[{index}].terms` is {terms:?}: for a state of `dimension` {dimension}, a \
+                polynomial of this `form` cannot have this number of terms",
+        /// There are fewer numbers than a step needs.
         Short { index: usize, numbers: usize }
-            => "`numbers` has {numbers} numbers: those of `steps[{index}]` are not among them",
+            => "`numbers` has {numbers} numbers: the numbers of `steps[{index}]` are missing",
         /// Numbers of no step.
         Long { numbers: usize, expected: usize }
-            => "`numbers` has {numbers} numbers: `dimension` and `steps` speak of {expected}",
+            => "`numbers` has {numbers} numbers: according to `dimension` and `steps` it must \
+                have {expected}",
     }
 }
 
@@ -116,7 +118,7 @@ impl<T: Real> TryFrom<Unchecked<T>> for Trajectory<T> {
     }
 }
 
-/// Checks that times are finite and run one way.
+/// Checks that times are finite, and that they all increase or all decrease.
 fn check_times<T: Real>(times: &[T]) -> Result<(), TrajectoryDataError> {
     let forwards = times.first() <= times.last();
     let goes_on = |pair: &[T]| (pair[0] <= pair[1]) == forwards || pair[0] == pair[1];

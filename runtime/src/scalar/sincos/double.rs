@@ -6,22 +6,24 @@ use core::ops::{Add, Mul, Sub};
 
 use super::reduction;
 
-/// The common range. Up to 2¹⁶ quarter turns the products with the parts of π/2
-/// below are exact, and no angle comes closer to a multiple of π/2 than 2⁻⁶¹
-/// (29 quarter turns, found by trying all), where 2⁻¹²⁵ is left out.
+/// Limit of the common range, in rad. Up to 2¹⁶ quarter turns, the products with the parts of π/2
+/// below are exact. In this range no angle comes closer to a multiple of π/2 than 2⁻⁶¹ (29 quarter
+/// turns, found by trying all), while the neglected rest is 2⁻¹²⁵.
 pub(crate) const LIMIT: f64 = 102_943.0;
 
-/// π/2 = PART_1 + PART_2 + PART_3 up to 2⁻¹³⁰; 37, 37 and 53 bits.
+/// π/2 = PART_1 + PART_2 + PART_3 with an error of 2⁻¹³⁰; the parts have 37, 37 and 53 bits.
 const PART_1: f64 = f64::from_bits(0x3ff9_21fb_5444_0000);
 const PART_2: f64 = f64::from_bits(0x3d86_8c23_4c4c_0000);
 const PART_3: f64 = f64::from_bits(0x3b29_8a2e_0370_7345);
 
-/// Adding 1.5 · 2⁵² rounds to an integer and leaves it in the lowest bits.
+/// Constant whose addition rounds a number to an integer, which is then in the lowest bits: 1.5 ·
+/// 2⁵².
 const ROUND: f64 = 6_755_399_441_055_744.0;
 
 const SIGN: u64 = 1 << 63;
 
-/// sin x = x + x³ (S1 + S2 x² + … + S6 x¹⁰) up to 2⁻⁵⁸ x for |x| ≤ π/4.
+/// Coefficients of sin x = x + x³ (S1 + S2 x² + … + S6 x¹⁰), with an error below 2⁻⁵⁸ x for |x| ≤
+/// π/4.
 pub(super) const SINE: [f64; 6] = [
     -1.666_666_666_666_663_2e-1,
     8.333_333_333_322_49e-3,
@@ -31,7 +33,8 @@ pub(super) const SINE: [f64; 6] = [
     1.589_690_995_211_55e-10,
 ];
 
-/// cos x = 1 − x²/2 + x⁴ (C1 + C2 x² + … + C6 x¹⁰) up to 2⁻⁵⁸ for |x| ≤ π/4.
+/// Coefficients of cos x = 1 − x²/2 + x⁴ (C1 + C2 x² + … + C6 x¹⁰), with an error below 2⁻⁵⁸ for
+/// |x| ≤ π/4.
 pub(super) const COSINE: [f64; 6] = [
     4.166_666_666_666_66e-2,
     -1.388_888_888_887_411e-3,
@@ -41,17 +44,16 @@ pub(super) const COSINE: [f64; 6] = [
     -1.135_964_755_778_819_5e-11,
 ];
 
-/// A number, or several in one register, that sines are computed with in one written
-/// order of operations.
+/// A number, or a register of several numbers, for sines that are computed in a fixed order of
+/// operations without fused multiply–add.
 pub(crate) trait UnfusedNumber:
     Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self>
 {
-    /// Returns one number everywhere.
+    /// Returns the same number in every lane.
     fn splat(value: f64) -> Self;
 
-    /// The results of a turn by a number of quarters, which stands in the lowest
-    /// bits of `quarter`, from those without it: odd numbers exchange sine and
-    /// cosine, and their second bits say the signs.
+    /// Rotates a sine and cosine by a number of quarter turns, which is in the lowest bits of
+    /// `quarter`. Odd numbers exchange sine and cosine; the second bit determines the signs.
     fn exchange(quarter: Self, sine: Self, cosine: Self) -> (Self, Self);
 }
 
@@ -74,9 +76,8 @@ impl UnfusedNumber for f64 {
     }
 }
 
-/// An angle minus the nearest multiple of π/2: `high − low`, and in the lowest
-/// two bits of `quarter` which multiple. `low` is below 2⁻⁵³, and below 2⁻⁹ of
-/// `high`.
+/// An angle minus the nearest multiple of π/2. The difference is `high − low`; the lowest two bits
+/// of `quarter` hold the number of quarter turns. `low` is below 2⁻⁵³, and below 2⁻⁹ of `high`.
 #[derive(Clone, Copy)]
 pub(crate) struct Reduced<P> {
     quarter: P,
@@ -84,7 +85,7 @@ pub(crate) struct Reduced<P> {
     low: P,
 }
 
-/// Sines and cosines of `N` angles.
+/// Computes the sines and cosines of `N` angles in rad.
 #[inline(always)]
 pub(crate) fn sin_cos_f64<const N: usize>(angles: [f64; N]) -> ([f64; N], [f64; N]) {
     let mut common = true;
@@ -97,16 +98,16 @@ pub(crate) fn sin_cos_f64<const N: usize>(angles: [f64; N]) -> ([f64; N], [f64; 
         return far(angles);
     }
     for i in 0..N {
-        (sines[i], cosines[i]) = turn(reduce(angles[i]));
+        (sines[i], cosines[i]) = sin_cos_of(reduce(angles[i]));
     }
     (sines, cosines)
 }
 
-/// Sines and cosines with angles outside the common range among them.
+/// Computes sines and cosines if some angles are outside the common range.
 #[inline(always)]
 pub(crate) fn far<const N: usize>(angles: [f64; N]) -> ([f64; N], [f64; N]) {
-    // Copies for this block alone: were angles and results themselves lent out,
-    // they would live in memory on the common path too.
+    // Copies for this block only: if angles and results themselves were borrowed, they would be
+    // kept in memory on the common path too.
     let (mut sines, mut cosines) = ([0.0; N], [0.0; N]);
     beyond(black_box(angles), &mut sines, &mut cosines);
     (sines, cosines)
@@ -118,10 +119,10 @@ fn beyond<const N: usize>(angles: [f64; N], sines: &mut [f64; N], cosines: &mut 
     for i in 0..N {
         let angle = angles[i];
         if angle.abs() < LIMIT {
-            (sines[i], cosines[i]) = turn(reduce(angle));
+            (sines[i], cosines[i]) = sin_cos_of(reduce(angle));
         } else if angle.is_finite() {
             let (quarter, [high, low, _]) = reduction::modulo_half_pi(angle);
-            (sines[i], cosines[i]) = turn(Reduced {
+            (sines[i], cosines[i]) = sin_cos_of(Reduced {
                 quarter: f64::from_bits(quarter),
                 high,
                 low: -low,
@@ -132,7 +133,7 @@ fn beyond<const N: usize>(angles: [f64; N], sines: &mut [f64; N], cosines: &mut 
     }
 }
 
-/// Cody and Waite's reduction, for the common range.
+/// Reduces an angle in the common range by Cody and Waite's method.
 #[inline(always)]
 pub(crate) fn reduce<P: UnfusedNumber>(angle: P) -> Reduced<P> {
     let quarter = angle * P::splat(FRAC_2_PI) + P::splat(ROUND);
@@ -149,9 +150,9 @@ pub(crate) fn reduce<P: UnfusedNumber>(angle: P) -> Reduced<P> {
     }
 }
 
-/// Sine and cosine of quarter turns plus a small angle.
+/// Returns sine and cosine of an angle that is given as quarter turns plus a small angle.
 #[inline(always)]
-pub(crate) fn turn<P: UnfusedNumber>(angle: Reduced<P>) -> (P, P) {
+pub(crate) fn sin_cos_of<P: UnfusedNumber>(angle: Reduced<P>) -> (P, P) {
     let Reduced { quarter, high, low } = angle;
     let square = high * high;
     let fourth = square * square;
@@ -161,7 +162,7 @@ pub(crate) fn turn<P: UnfusedNumber>(angle: Reduced<P>) -> (P, P) {
     // Pairs of terms: half the latency of Horner's scheme.
     let [s1, s2, s3, s4, s5, s6] = SINE.map(P::splat);
     let tail = (s1 + square * s2) + fourth * ((s3 + square * s4) + fourth * (s5 + square * s6));
-    // sin(high − low) = sin(high) − low up to 0.15 ulp; a zero keeps its sign.
+    // sin(high − low) = sin(high) − low within 0.15 ulp; a zero keeps its sign.
     let sine = high - (low - (square * high) * tail);
 
     let [c1, c2, c3, c4, c5, c6] = COSINE.map(P::splat);

@@ -1,85 +1,87 @@
-//! Sine and cosine with fused multiply-adds: what the wide registers and
-//! [`Fused`] numbers use. Fewer operations than the portable ones and other last
-//! bits; less than one unit in the last place from the true value.
+//! Sine and cosine computed with fused multiply–add, for the wide registers and [`Fused`] numbers.
+//! These functions take fewer operations than the portable ones, and results differ in the last
+//! bits; the error is below one unit in the last place.
 //!
-//! The first part of π/2 has all of its digits here: a fused product minus the
-//! angle is exact without zeros at its end.
+//! The first part of π/2 uses all of its digits: a fused product minus the angle is exact even if
+//! the part does not end with zeros.
 
-// Without registers nothing looks at the range of several angles at a time.
+// Without registers no code checks the range of several angles at a time.
 #![cfg_attr(not(all(feature = "std", target_arch = "x86_64")), allow(dead_code))]
 
 use core::hint::black_box;
 
-use super::super::turns::Turned;
+use super::super::sin_cos_pairs::SinesAndCosines;
 use super::super::{Lane, Scalar};
 use super::reduction;
 use super::tail::{self, Tail, for_each};
 use crate::simd::{Fused, Simd};
 
-/// A number, or several in one register, that sines are computed with.
+/// A number, or a register of several numbers, for sines that are computed with fused multiply–add.
 pub(crate) trait FusingNumber: Simd<Self::Lane> {
-    /// A number in it.
+    /// Type of the number in each lane of the register.
     type Lane: Float;
-    /// As many numbers as it has lanes.
+    /// Array with one number per lane.
     type Array: Copy + AsRef<[Self::Lane]> + AsMut<[Self::Lane]>;
 
-    /// Sine and cosine after a turn by a number of quarters, which stands in the
-    /// lowest bits of `quarter`, from those without it: the sine is `high − lost`.
+    /// Rotates a sine and cosine by a number of quarter turns, which is in the lowest bits of
+    /// `quarter`; the sine is given as `high − lost`.
     ///
-    /// From s and c, odd numbers make c and −s; the second bit changes both signs.
+    /// Odd numbers replace (s, c) by (c, −s); the second bit changes both signs.
     fn exchange(quarter: Self, high: Self, lost: Self, cosine: Self) -> (Self, Self);
 
-    /// The bits of `self`, and those in which two others differ.
+    /// Returns the bits of `self`, with those bits set in which `one` and `other` differ.
     fn or_differing(self, one: Self, other: Self) -> Self;
 
-    /// Returns true if none of the bits [`Float::ABOVE`] is set.
+    /// Returns true if none of the bits [`Float::HIGH_BITS`] is set.
     fn only_low_bits(self) -> bool;
 
-    /// Returns true if all numbers are below `limit`.
+    /// Returns true if the numbers in all lanes are below `limit`.
     fn all_below(self, limit: Self::Lane) -> bool;
 
-    /// From numbers in their order.
+    /// Creates a register from the numbers of its lanes.
     fn from_numbers(numbers: Self::Array) -> Self;
 
-    /// The numbers in their order.
+    /// Largest angle of the common range, in rad, slightly reduced. For every number of quarter
+    /// turns in this range, the distance between an angle and a multiple of π/2 has been examined.
     fn to_numbers(self) -> Self::Array;
 }
 
-/// The constants of one precision.
+/// Constants of one precision.
 pub(crate) trait Float: Lane {
-    /// One that fuses.
+    /// A single number that fuses.
     type One: FusingNumber<Lane = Self>;
-    /// As many as a register of AVX2 holds.
+    /// A register of AVX2.
     type Several: FusingNumber<Lane = Self>;
-    /// A little less than the common range, which has as many quarter turns as have
-    /// been examined for how close an angle comes to them.
+    /// Limit of the angles, a little inside the common range. For all numbers of quarter turns in
+    /// this range, the distance between an angle and a multiple of π/2 has been examined.
     const LIMIT: Self;
     /// 2/π.
-    const TURNS: Self;
-    /// How many quarter turns the common range has: −QUARTERS to QUARTERS − 1.
+    const TWO_OVER_PI: Self;
+    /// Largest number of quarter turns in the common range of angles, which reaches from −QUARTERS
+    /// to QUARTERS − 1.
     const QUARTERS: Self;
-    /// 1.5 times a power of two: what is added to it is rounded to an integer,
-    /// which stands in the lowest bits then.
+    /// Constant whose addition rounds a number to an integer, which is then in the lowest bits: 1.5
+    /// times a power of two.
     const INTEGERS: Self;
-    /// The two together. What is added to them has more bits than the lowest in
-    /// common with INTEGERS if it is in the common range, and only then.
+    /// Sum of `QUARTERS` and `INTEGERS`. A number plus this constant has the same higher bits as
+    /// `INTEGERS` if and only if the number is in the common range.
     const ROUND: Self;
-    /// The bits that are not the lowest.
-    const ABOVE: Self;
-    /// π/2 as a sum of positive parts. Products with the second are exact, and
-    /// have so few digits that the difference from an angle is so too, where
-    /// that is smaller than they are.
+    /// Mask of all bits except the lowest ones, which hold the number of quarter turns.
+    const HIGH_BITS: Self;
+    /// π/2 as a sum of positive parts. Products with the second part are exact, and have so few
+    /// digits that subtracting an angle smaller than the product is exact too.
     const HALF_PI: [Self; 3];
-    /// sin x = x + x³ S(x²) for |x| ≤ π/4.
+    /// Polynomial S in sin x = x + x³ S(x²) for |x| ≤ π/4.
     const SINE: Tail<Self>;
-    /// cos x = 1 − x²/2 + x⁴ C(x²) for |x| ≤ π/4.
+    /// Polynomial C in cos x = 1 − x²/2 + x⁴ C(x²) for |x| ≤ π/4.
     const COSINE: Tail<Self>;
 
-    /// `a * b + c`, rounded once.
+    /// Returns `a * b + c`, rounded once.
     fn fused(a: Self, b: Self, c: Self) -> Self;
 
-    /// The number of the nearest multiple of π/2 in the lowest bits, and the
-    /// distance from it as a difference of two numbers; NaN where there is none.
+    /// Reduces an angle outside the common range: returns the number of the nearest multiple of π/2
+    /// in the lowest bits, and the distance from it as a difference of two numbers; NaN if the
+    /// angle is infinite or NaN.
     fn far(angle: Self) -> (Self, [Self; 2]);
 }
 
@@ -91,11 +93,11 @@ impl Float for f64 {
     type Several = Fused<f64>;
 
     const LIMIT: f64 = 102_942.0;
-    const TURNS: f64 = core::f64::consts::FRAC_2_PI;
+    const TWO_OVER_PI: f64 = core::f64::consts::FRAC_2_PI;
     const QUARTERS: f64 = 65_536.0;
     const INTEGERS: f64 = 6_755_399_441_055_744.0;
     const ROUND: f64 = Self::INTEGERS + Self::QUARTERS;
-    const ABOVE: f64 = f64::from_bits(!((1 << 17) - 1));
+    const HIGH_BITS: f64 = f64::from_bits(!((1 << 17) - 1));
     const HALF_PI: [f64; 3] = [
         core::f64::consts::FRAC_PI_2,
         f64::from_bits(0x3c91a62633140000),
@@ -129,17 +131,17 @@ impl Float for f32 {
     type Several = Fused<f32>;
 
     const LIMIT: f32 = 803.0;
-    const TURNS: f32 = core::f32::consts::FRAC_2_PI;
+    const TWO_OVER_PI: f32 = core::f32::consts::FRAC_2_PI;
     const QUARTERS: f32 = 512.0;
     const INTEGERS: f32 = 12_582_912.0;
     const ROUND: f32 = Self::INTEGERS + Self::QUARTERS;
-    const ABOVE: f32 = f32::from_bits(!((1 << 10) - 1));
+    const HIGH_BITS: f32 = f32::from_bits(!((1 << 10) - 1));
     const HALF_PI: [f32; 3] = [
         f32::from_bits(0x3fc9_0fda),
         f32::from_bits(0x33a22000),
         f32::from_bits(0x2c34611a),
     ];
-    /// Minimax polynomials, up to 2⁻²⁸ of the sine and 2⁻³³.
+    /// Minimax polynomial for the sine, with errors up to 2⁻²⁸; for the cosine they are up to 2⁻³³.
     const SINE: Tail<f32> = Tail::Short([-0.166_666_55, 8.332_177e-3, -1.951_713_8e-4]);
     const COSINE: Tail<f32> = Tail::Short([4.166_664_6e-2, -1.388_736_7e-3, 2.443_827_2e-5]);
 
@@ -163,18 +165,18 @@ impl Float for f32 {
     }
 }
 
-/// Angles that are computed step by step together: while the result of one
-/// operation is awaited, the others keep the processor busy.
+/// Number of angles that are computed in lockstep, so that the processor works on the others while
+/// it waits for the result of one operation.
 const GROUP: usize = 4;
 
-/// Sines and cosines in the common range. Bits above the lowest are set in `seen`
-/// where an angle is outside.
+/// Computes the sines and cosines of angles in the common range. If an angle is outside, bits above
+/// the lowest are set in `seen`.
 #[inline(always)]
 fn common<P: FusingNumber, const G: usize>(angles: [P; G], seen: &mut P) -> ([P; G], [P; G]) {
     let [part_1, part_2, part_3] = P::Lane::HALF_PI;
     let (part_1, part_2, part_3) = (P::splat(part_1), P::splat(part_2), P::splat(part_3));
     let round = P::splat(P::Lane::ROUND);
-    let turns = P::splat(P::Lane::TURNS);
+    let turns = P::splat(P::Lane::TWO_OVER_PI);
     let quarters = for_each!(round; i => angles[i].mul_add(turns, round));
     for quarters in quarters {
         *seen = seen.or_differing(quarters, P::splat(P::Lane::INTEGERS));
@@ -182,19 +184,19 @@ fn common<P: FusingNumber, const G: usize>(angles: [P; G], seen: &mut P) -> ([P;
     let n = for_each!(round; i => quarters[i] - round);
     // Exact: a multiple of the last place of π/2 that is below one.
     let first = for_each!(round; i => (-n[i]).mul_add(part_1, angles[i]));
-    // Exact too, and so is what the difference loses.
+    // Exact too, as is the rounding error of the difference.
     let second = for_each!(round; i => n[i] * part_2);
     let high = for_each!(round; i => first[i] - second[i]);
     let low = for_each!(round; i => high[i] - first[i]);
     let low = for_each!(round; i => low[i] + second[i]);
     let low = for_each!(round; i => n[i].mul_add(part_3, low[i]));
-    turn(quarters, high, low)
+    sin_cos_of(quarters, high, low)
 }
 
-/// Sines and cosines of quarter turns plus `high − low`. What is awaited longest
-/// needs `high` alone; `low` comes in late.
+/// Returns the sine and cosine of angles given as quarter turns plus `high − low`. The longest
+/// chain of operations needs `high` only; `low` is used late.
 #[inline(always)]
-fn turn<P: FusingNumber, const G: usize>(
+fn sin_cos_of<P: FusingNumber, const G: usize>(
     quarters: [P; G],
     high: [P; G],
     low: [P; G],
@@ -204,7 +206,7 @@ fn turn<P: FusingNumber, const G: usize>(
     let square = for_each!(one; i => high[i] * high[i]);
     let tail = tail::evaluate(square, P::Lane::SINE);
     let cube = for_each!(one; i => high[i] * square[i]);
-    // sin(high − low) = sin(high) − low up to 0.15 ulp; a zero keeps its sign.
+    // sin(high − low) = sin(high) − low within 0.15 ulp; a zero keeps its sign.
     let lost = for_each!(one; i => (-cube[i]).mul_add(tail[i], low[i]));
     let tail = tail::evaluate(square, P::Lane::COSINE);
     let tail = for_each!(one; i => square[i].mul_add(tail[i], half));
@@ -218,14 +220,14 @@ fn turn<P: FusingNumber, const G: usize>(
     (sines, cosines)
 }
 
-/// Sines and cosines of angles in registers.
+/// Computes the sines and cosines of angles in registers, of any magnitude.
 #[inline(always)]
 pub(crate) fn each<P: FusingNumber, const N: usize>(angles: &[P; N]) -> ([P; N], [P; N]) {
     let zero = [P::from_f64(0.0); N];
     let (mut sines, mut cosines) = (zero, zero);
     if !groups(angles, &mut sines, &mut cosines) {
-        // Copies for this block alone: were angles and results themselves lent
-        // out, they would live in memory on the common path too.
+        // Copies for this block only: if angles and results themselves were borrowed, they would be
+        // kept in memory on the common path too.
         let (mut far_sines, mut far_cosines) = (zero, zero);
         let angles = black_box(*angles);
         beyond(&angles, &mut far_sines, &mut far_cosines);
@@ -237,7 +239,7 @@ pub(crate) fn each<P: FusingNumber, const N: usize>(angles: &[P; N]) -> ([P; N],
 /// Returns true if all angles are in the common range.
 #[inline(always)]
 fn all_near<P: FusingNumber>(angles: &[P]) -> bool {
-    // What is no number may get lost here: its sine is none in either way.
+    // A NaN may be overlooked here: its sine is NaN on both paths.
     let mut largest = P::from_f64(0.0);
     for &angle in angles {
         largest = largest.larger_size(angle);
@@ -245,9 +247,12 @@ fn all_near<P: FusingNumber>(angles: &[P]) -> bool {
     largest.all_below(P::Lane::LIMIT)
 }
 
-/// Sines and cosines of all angles, if one of them is outside the common range.
+/// Computes the sines and cosines of all angles if at least one is outside the common range;
+/// otherwise returns `None`.
 #[inline(always)]
-pub(crate) fn ahead<P: FusingNumber, const N: usize>(angles: &[P; N]) -> Option<Turned<P, N>> {
+pub(crate) fn ahead<P: FusingNumber, const N: usize>(
+    angles: &[P; N],
+) -> Option<SinesAndCosines<P, N>> {
     if all_near(angles) {
         return None;
     }
@@ -259,13 +264,14 @@ pub(crate) fn ahead<P: FusingNumber, const N: usize>(angles: &[P; N]) -> Option<
     Some((sines, cosines))
 }
 
-/// Sines and cosines of angles in the common range, computed together.
+/// Computes sines and cosines of angles in the common range, in lockstep.
 #[inline(always)]
-pub(crate) fn near<P: FusingNumber, const N: usize>(angles: &[P; N]) -> Turned<P, N> {
+pub(crate) fn near<P: FusingNumber, const N: usize>(angles: &[P; N]) -> SinesAndCosines<P, N> {
     common(*angles, &mut P::from_f64(0.0))
 }
 
-/// Sines and cosines, if all angles are in the common range.
+/// Computes sines and cosines in groups of registers. Returns false if some angle is outside the
+/// common range.
 #[inline(always)]
 fn groups<P: FusingNumber>(angles: &[P], sines: &mut [P], cosines: &mut [P]) -> bool {
     let mut seen = P::from_f64(0.0);
@@ -283,7 +289,7 @@ fn groups<P: FusingNumber>(angles: &[P], sines: &mut [P], cosines: &mut [P]) -> 
     seen.only_low_bits()
 }
 
-/// The `G` angles from `start` on.
+/// Computes the sines and cosines of the `G` angles from index `start` on.
 #[inline(always)]
 fn group<P: FusingNumber, const G: usize>(
     angles: &[P],
@@ -299,7 +305,7 @@ fn group<P: FusingNumber, const G: usize>(
     }
 }
 
-/// Sines and cosines one by one, with angles outside the common range among them.
+/// Computes sines and cosines one by one, because some angles are outside the common range.
 #[cold]
 #[inline(never)]
 fn beyond<P: FusingNumber, const N: usize>(
@@ -319,7 +325,7 @@ fn beyond<P: FusingNumber, const N: usize>(
     }
 }
 
-/// One angle anywhere.
+/// Computes sine and cosine of one angle of any magnitude.
 #[inline(always)]
 fn one<T: Float>(angle: T) -> (T, T) {
     let mut seen = T::One::from_f64(0.0);
@@ -328,7 +334,7 @@ fn one<T: Float>(angle: T) -> (T, T) {
         near
     } else {
         let (quarter, [high, low]) = T::far(angle);
-        turn(
+        sin_cos_of(
             [T::One::splat(quarter)],
             [T::One::splat(high)],
             [T::One::splat(low)],
@@ -341,8 +347,8 @@ fn one<T: Float>(angle: T) -> (T, T) {
     (number(sine), number(cosine))
 }
 
-/// Sines and cosines of the angles of one state: one alone, several in a
-/// register of AVX2, of which the last may overlap the one before.
+/// Computes the sines and cosines of the angles of one state: a single angle by itself, several in
+/// AVX2 registers, the last of which may overlap the one before.
 #[inline(always)]
 pub(crate) fn several<T: Float, const N: usize>(
     angles: &[Fused<T>; N],
@@ -360,7 +366,7 @@ where
     let mut start = 0;
     while start < N {
         let first = start.min(N.saturating_sub(lanes));
-        // Lanes without an angle have the last one.
+        // Lanes without an angle get the last one.
         let mut numbers = T::Several::splat(angles[N - 1].0).to_numbers();
         for (number, angle) in numbers.as_mut().iter_mut().zip(&angles[first..]) {
             *number = angle.0;

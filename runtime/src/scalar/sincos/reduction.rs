@@ -1,6 +1,6 @@
 //! Remainders of large angles modulo π/2 (Payne and Hanek).
 
-/// 2/π from the bit of weight 2⁶³ down: bits enough for every `f64`.
+/// Bits of the number 2/π from the weight 2⁶³ downwards, enough for every `f64`.
 const TWO_OVER_PI: [u64; 22] = [
     0,
     0xa2f9_836e_4e44_1529,
@@ -26,19 +26,19 @@ const TWO_OVER_PI: [u64; 22] = [
     0xa9e3_9161_5ee6_1b08,
 ];
 
-/// π/2 · 2¹⁹¹, most significant word first.
+/// The number π/2 · 2¹⁹¹, most significant word first.
 const HALF_PI: [u64; 3] = [
     0xc90f_daa2_2168_c234,
     0xc4c6_628b_80dc_1cd1,
     0x2902_4e08_8a67_cc74,
 ];
 
-/// The number of the multiple of π/2 nearest to a finite `angle`, modulo 4, and
-/// the signed distance from it as a sum of three numbers that do not overlap.
+/// Returns the number of the multiple of π/2 nearest to a finite `angle`, modulo 4, and the signed
+/// distance from it as a sum of three numbers that do not overlap.
 ///
-/// The distance is right to a factor of 1 ± 2⁻¹³⁰: the fraction of 2x/π is
-/// right to 2⁻²⁰⁰, and no `f64` but zero comes closer to a multiple of π/2 than
-/// 2⁻⁶² (J.-M. Muller, Elementary Functions, 3rd ed. 2016, §11.3.2).
+/// The distance is accurate to a factor of 1 ± 2⁻¹³⁰: the fraction of 2x/π is accurate to 2⁻²⁰⁰,
+/// and no `f64` except zero comes closer to a multiple of π/2 than 2⁻⁶² (J.-M. Muller, Elementary
+/// Functions, 3rd ed. 2016, §11.3.2).
 pub(crate) fn modulo_half_pi(angle: f64) -> (u64, [f64; 3]) {
     let bits = angle.to_bits();
     let biased = ((bits >> 52) & 0x7ff) as usize;
@@ -48,8 +48,8 @@ pub(crate) fn modulo_half_pi(angle: f64) -> (u64, [f64; 3]) {
     }
     // |angle| = integer · 2^exponent with an integer of 53 bits.
     let integer = (bits & ((1 << 52) - 1)) | (1 << 52);
-    // Bits of 2/π of weight above 2^(1 − exponent) give multiples of 4: the
-    // window begins at that weight. The table begins at 2⁶³.
+    // Bits of 2/π of weight above 2^(1 − exponent) give multiples of 4, so the window begins at
+    // that weight. The table begins at 2⁶³.
     let start = biased + 63 - 1 - 1075;
     let mut fraction = product(integer, window(start));
     // Two integer bits, then the fraction of 2|x|/π.
@@ -63,7 +63,7 @@ pub(crate) fn modulo_half_pi(angle: f64) -> (u64, [f64; 3]) {
     let zeros = leading_zeros(fraction);
     let [a, b, c, _] = shift_left(fraction, zeros);
     let distance = times_half_pi([a, b, c]);
-    // times_half_pi gives units of 2⁻¹⁹¹.
+    // times_half_pi returns units of 2⁻¹⁹¹.
     let mut scale = power_of_two(zeros);
     let negative = bits >> 63 == 1;
     if above_half != negative {
@@ -75,7 +75,7 @@ pub(crate) fn modulo_half_pi(angle: f64) -> (u64, [f64; 3]) {
     (quarter, components(distance, scale))
 }
 
-/// 256 bits of the table from bit `start`.
+/// Returns 256 bits of the table of 2/π, from bit `start` on.
 fn window(start: usize) -> [u64; 4] {
     let (word, shift) = (start / 64, start % 64);
     let at = |index: usize| TWO_OVER_PI.get(index).copied().unwrap_or(0);
@@ -89,7 +89,7 @@ fn window(start: usize) -> [u64; 4] {
     })
 }
 
-/// The low 256 bits of `factor * number`.
+/// Returns the low 256 bits of `factor * number`.
 fn product(factor: u64, number: [u64; 4]) -> [u64; 4] {
     let mut result = [0; 4];
     let mut carry = 0;
@@ -101,8 +101,7 @@ fn product(factor: u64, number: [u64; 4]) -> [u64; 4] {
     result
 }
 
-/// The high 192 bits of `number` · π/2, in units of 2⁻¹⁹¹ for a `number` in
-/// units of 2⁻¹⁹².
+/// Returns the high 192 bits of `number` · π/2, in units of 2⁻¹⁹¹ for a `number` in units of 2⁻¹⁹².
 fn times_half_pi(number: [u64; 3]) -> [u64; 3] {
     let mut result = [0_u64; 6];
     for i in (0..3).rev() {
@@ -158,17 +157,16 @@ fn leading_zeros(number: [u64; 4]) -> u32 {
     zeros
 }
 
-/// 2⁻ⁿ, for n up to 256.
+/// Returns 2⁻ⁿ, for n up to 256.
 fn power_of_two(n: u32) -> f64 {
     f64::from_bits((1023 - u64::from(n)) << 52)
 }
 
-/// 192 bits in units of 2⁻¹⁹¹, times `scale`, as three numbers that do not
-/// overlap.
+/// Converts 192 bits in units of 2⁻¹⁹¹, times `scale`, to three numbers that do not overlap.
 #[allow(clippy::cast_precision_loss)]
 fn components(number: [u64; 3], scale: f64) -> [f64; 3] {
     let [a, b, c] = number;
-    // Pieces of 48 bits are exact, and so are the sums of neighbours.
+    // Pieces of 48 bits are exact, and so are the sums of neighbouring ones.
     const PIECE: u64 = (1 << 48) - 1;
     let pieces = [
         a >> 16,
@@ -182,7 +180,7 @@ fn components(number: [u64; 3], scale: f64) -> [f64; 3] {
         let mut term = piece as f64 * weight;
         for part in &mut sum {
             let high = *part + term;
-            // Exact: the terms fall in size.
+            // Exact, because the terms decrease in magnitude.
             term -= high - *part;
             *part = high;
         }

@@ -1,26 +1,26 @@
-//! Several angles of plain numbers, in the widest registers of the machine.
+//! Sine and cosine of several angles of plain numbers, in the widest registers of the machine.
 //!
-//! A narrow register is filled where the angles are; for wide ones a function
-//! is called, since only a function can be compiled for other instructions than
-//! its surroundings. A wide load has to wait for narrow stores just made to the
-//! same place: angles are therefore read where they lie, never gathered first.
+//! Narrow registers are filled in place. For wide ones a function is called, because only a
+//! separate function can be compiled for other instructions than its surroundings. A wide load has
+//! to wait for narrow stores just made to the same address: angles are therefore read in place,
+//! never copied together first.
 
 use super::{sin_cos_f32, sin_cos_f64};
 use crate::simd::dispatch::run_wide;
 use crate::simd::{InstructionSet, Kernel, Simd};
 
-/// Sines and cosines of `N` angles.
+/// Computes the sines and cosines of `N` angles of type `f64`.
 #[inline(always)]
 pub(crate) fn several_f64<const N: usize>(angles: &[f64; N]) -> ([f64; N], [f64; N]) {
     match N {
-        // A call costs more than it saves.
+        // For so few angles a call costs more than it saves.
         0..3 => sin_cos_f64(*angles),
         3..8 => few::sin_cos(angles),
         _ => run_wide(InstructionSet::widest(), Many(angles)),
     }
 }
 
-/// As [`several_f64`].
+/// Computes the sines and cosines of `N` angles of type `f32`.
 #[inline(always)]
 pub(crate) fn several_f32<const N: usize>(angles: &[f32; N]) -> ([f32; N], [f32; N]) {
     if N < 8 {
@@ -38,8 +38,8 @@ macro_rules! eight_at_a_time {
         impl<const N: usize> Kernel<$float> for Many<'_, $float, N> {
             type Output = ([$float; N], [$float; N]);
 
-            /// Where blocks of eight do not divide, the last one overlaps the
-            /// one before.
+            /// Computes blocks of angles. If their number is not a multiple of eight, the last
+            /// block overlaps the one before.
             #[inline(always)]
             fn run<V: Simd<$float>>(self) -> Self::Output {
                 let (mut sines, mut cosines) = ([0.0; N], [0.0; N]);
@@ -76,21 +76,20 @@ mod few {
         if N > 4 {
             return in_blocks(angles);
         }
-        // Whole registers are stored: a load that crosses two stores would
-        // have to wait.
+        // Whole registers are stored, because a load across two stores would have to wait.
         let (sines, cosines) = in_blocks::<N, 4>(angles);
         let first = |block: [f64; 4]| block.first_chunk::<N>().copied().unwrap_or([0.0; N]);
         (first(sines), first(cosines))
     }
 
-    /// Results of `M` angles, `N` or one block.
+    /// Computes the sines and cosines of `M` angles: all `N`, or one block.
     #[inline(always)]
     fn in_blocks<const N: usize, const M: usize>(angles: &[f64; N]) -> ([f64; M], [f64; M]) {
         match InstructionSet::widest() {
             InstructionSet::Build => build(angles),
-            // SAFETY: `widest` has asked for AVX2 and FMA.
+            // SAFETY: `widest` has detected AVX2 and FMA.
             InstructionSet::Avx2 => unsafe { avx2(angles) },
-            // SAFETY: `widest` has asked for AVX-512.
+            // SAFETY: `widest` has detected AVX-512.
             InstructionSet::Avx512 => unsafe { avx512(angles) },
         }
     }
@@ -112,7 +111,7 @@ mod few {
         quads(angles)
     }
 
-    /// The last of several blocks overlaps the one before.
+    /// Computes sines and cosines in blocks of four; the last block overlaps the one before.
     #[target_feature(enable = "avx2,fma")]
     #[inline]
     fn quads<const N: usize, const M: usize>(angles: &[f64; N]) -> ([f64; M], [f64; M]) {

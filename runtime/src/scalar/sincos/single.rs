@@ -1,26 +1,28 @@
-//! Sine and cosine for `f32`, computed in `f64`: two vectors of half as many
-//! numbers cost no more than the compensated sums that single precision asks
-//! for, and the result is rounded correctly but for one case in ten thousand.
+//! Sine and cosine for `f32`, computed in `f64`. Two vectors of half as many numbers cost no more
+//! than the compensated sums that single precision would need, and the result is correctly rounded
+//! except in one case in ten thousand.
 
 use core::f64::consts::FRAC_2_PI;
 use core::hint::black_box;
 
 use super::reduction;
 
-/// The common range: up to 2²⁰ quarter turns the product with the first part of
+/// Limit of the common range, in rad: up to 2²⁰ quarter turns the product with the first part of
 /// π/2 is exact.
 const LIMIT: f32 = 1_647_099.0;
 
-/// π/2 = PART_1 + PART_2 up to 2⁻⁸⁶; 33 and 53 bits.
+/// π/2 = PART_1 + PART_2 with an error of 2⁻⁸⁶; the parts have 33 and 53 bits.
 const PART_1: f64 = f64::from_bits(0x3ff9_21fb_5440_0000);
 const PART_2: f64 = f64::from_bits(0x3dd0_b461_1a62_6331);
 
-/// Adding 1.5 · 2⁵² rounds to an integer and leaves it in the lowest bits.
+/// Constant whose addition rounds a number to an integer, which is then in the lowest bits: 1.5 ·
+/// 2⁵².
 const ROUND: f64 = 6_755_399_441_055_744.0;
 
 const SIGN: u64 = 1 << 63;
 
-/// sin x = x + x³ (S1 + S2 x² + S3 x⁴ + S4 x⁶) up to 2⁻³⁷ x for |x| ≤ π/4.
+/// Coefficients of sin x = x + x³ (S1 + S2 x² + S3 x⁴ + S4 x⁶), with an error below 2⁻³⁷ x for |x|
+/// ≤ π/4.
 const SINE: [f64; 4] = [
     -0.166_666_666_416_265_24,
     8.333_329_385_889_463e-3,
@@ -28,7 +30,8 @@ const SINE: [f64; 4] = [
     2.718_311_493_989_822e-6,
 ];
 
-/// cos x = 1 + x² (C0 + C1 x² + C2 x⁴ + C3 x⁶) up to 2⁻³⁴ for |x| ≤ π/4.
+/// Coefficients of cos x = 1 + x² (C0 + C1 x² + C2 x⁴ + C3 x⁶), with an error below 2⁻³⁴ for |x| ≤
+/// π/4.
 const COSINE: [f64; 4] = [
     -0.499_999_997_251_031,
     4.166_662_332_373_906e-2,
@@ -36,7 +39,7 @@ const COSINE: [f64; 4] = [
     2.439_044_879_627_741_6e-5,
 ];
 
-/// Sines and cosines of `N` angles.
+/// Computes the sines and cosines of `N` angles in rad.
 #[inline(always)]
 pub(crate) fn sin_cos_f32<const N: usize>(angles: [f32; N]) -> ([f32; N], [f32; N]) {
     let mut common = true;
@@ -46,8 +49,8 @@ pub(crate) fn sin_cos_f32<const N: usize>(angles: [f32; N]) -> ([f32; N], [f32; 
     let mut sines = [0.0; N];
     let mut cosines = [0.0; N];
     if !common {
-        // Copies for this block alone: were angles and results themselves lent out,
-        // they would live in memory on the common path too.
+        // Copies for this block only: if angles and results themselves were borrowed, they would be
+        // kept in memory on the common path too.
         let (mut far_sines, mut far_cosines) = ([0.0; N], [0.0; N]);
         beyond(black_box(angles), &mut far_sines, &mut far_cosines);
         for i in 0..N {
@@ -57,27 +60,27 @@ pub(crate) fn sin_cos_f32<const N: usize>(angles: [f32; N]) -> ([f32; N], [f32; 
     }
     for i in 0..N {
         let (quarter, rest) = reduce(angles[i]);
-        (sines[i], cosines[i]) = turn(quarter, rest);
+        (sines[i], cosines[i]) = sin_cos_of(quarter, rest);
     }
     (sines, cosines)
 }
 
-/// Sines and cosines with angles outside the common range among them.
+/// Computes sines and cosines if some angles are outside the common range.
 #[cold]
 #[inline(never)]
 fn beyond<const N: usize>(angles: [f32; N], sines: &mut [f32; N], cosines: &mut [f32; N]) {
     for i in 0..N {
         (sines[i], cosines[i]) = if angles[i].is_finite() {
             let (quarter, rest) = reduce_any(angles[i]);
-            turn(quarter, rest)
+            sin_cos_of(quarter, rest)
         } else {
             (f32::NAN, f32::NAN)
         };
     }
 }
 
-/// The number of the nearest multiple of π/2 in the lowest bits, and the distance
-/// of a finite angle from it.
+/// Reduces a finite angle: returns the number of the nearest multiple of π/2 in the lowest bits,
+/// and the distance from it.
 #[inline(always)]
 pub(super) fn reduce_any(angle: f32) -> (u64, f64) {
     if angle.abs() < LIMIT {
@@ -87,7 +90,7 @@ pub(super) fn reduce_any(angle: f32) -> (u64, f64) {
     (quarter, rest)
 }
 
-/// Cody and Waite's reduction, for the common range.
+/// Reduces an angle in the common range by Cody and Waite's method.
 #[inline(always)]
 fn reduce(angle: f32) -> (u64, f64) {
     let angle = f64::from(angle);
@@ -96,10 +99,10 @@ fn reduce(angle: f32) -> (u64, f64) {
     (shifted.to_bits(), (angle - n * PART_1) - n * PART_2)
 }
 
-/// Sine and cosine of quarter turns plus a small angle.
+/// Returns sine and cosine of an angle that is given as quarter turns plus a small angle.
 #[inline(always)]
 #[allow(clippy::cast_possible_truncation)]
-fn turn(quarter: u64, angle: f64) -> (f32, f32) {
+fn sin_cos_of(quarter: u64, angle: f64) -> (f32, f32) {
     let square = angle * angle;
     let fourth = square * square;
     let [s1, s2, s3, s4] = SINE;

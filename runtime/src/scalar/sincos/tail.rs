@@ -1,19 +1,17 @@
-//! Terms of sines and cosines behind the first ones: polynomials in the square of the
-//! angle.
+//! Higher-order terms of sine and cosine, as polynomials in the square of the angle.
 //!
-//! Horner's scheme takes five products for degree five, one after the other. With
-//! adapted coefficients (D. E. Knuth, The Art of Computer Programming 2, 3rd ed.
-//! 1997, §4.6.4) it is four products, three of which wait for each other. Their rounding
-//! errors are larger: too large for the sine, of which this part is a tenth, and nothing in
-//! the cosine, of which it is a fiftieth.
+//! Horner's scheme takes five consecutive products for degree five. With adapted coefficients (D.
+//! E. Knuth, The Art of Computer Programming 2, 3rd ed. 1997, §4.6.4) it takes four products, three
+//! of which depend on each other. Their rounding errors are larger: too large for the sine, of
+//! which this part is a tenth, but negligible for the cosine, of which it is a fiftieth.
 
 // As for the registers.
 #![allow(unreachable_pub)]
 
 use super::fused::FusingNumber;
 
-/// An array of what the expression gives for each index: a plain loop, because
-/// closures are not sure to be compiled for the surrounding instructions.
+/// Builds an array from an expression for each index. It expands to a plain loop, because closures
+/// are not guaranteed to be compiled for the vector instructions of the surrounding function.
 macro_rules! for_each {
     ($zero:expr; $i:ident => $value:expr) => {{
         let mut values = [$zero; G];
@@ -25,18 +23,18 @@ macro_rules! for_each {
 }
 pub(super) use for_each;
 
-/// A polynomial.
+/// A polynomial, together with its method of evaluation.
 #[derive(Clone, Copy, Debug)]
 pub enum Tail<T> {
-    /// Degree two, by Horner's scheme, from the constant term on.
+    /// Degree two, by Horner's scheme; coefficients from the constant term on.
     Short([T; 3]),
-    /// Degree five, by Horner's scheme.
+    /// Degree five, by Horner's scheme; coefficients from the constant term on.
     Long([T; 6]),
     /// Degree five, as t + y (u + y (v + w x)) with y = x (x + b) + c.
     Nested(Nested<T>),
 }
 
-/// Adapted coefficients.
+/// Adapted coefficients of a polynomial of degree five.
 #[derive(Clone, Copy, Debug)]
 pub struct Nested<T> {
     pub b: T,
@@ -47,7 +45,8 @@ pub struct Nested<T> {
     pub w: T,
 }
 
-/// (cos √x − 1 + x/2) / x² for √x ≤ π/4, up to 2⁻⁵⁹ of the cosine: FDLIBM's polynomial.
+/// The polynomial (cos √x − 1 + x/2) / x² for √x ≤ π/4, from FDLIBM; the cosine's error is up to
+/// 2⁻⁵⁹.
 pub(super) const COSINE: Tail<f64> = Tail::Nested(Nested {
     b: -80.585_464_319_516_05,
     c: 7_061.240_596_009_447,
@@ -57,7 +56,7 @@ pub(super) const COSINE: Tail<f64> = Tail::Nested(Nested {
     w: -1.135_964_755_778_819_5e-11,
 });
 
-/// The values for some squares of angles.
+/// Evaluates the polynomial `tail` at several squares of angles.
 #[inline(always)]
 pub(super) fn evaluate<P: FusingNumber, const G: usize>(x: [P; G], tail: Tail<P::Lane>) -> [P; G] {
     match tail {
@@ -93,7 +92,7 @@ mod tests {
     use super::{COSINE, Tail};
     use crate::scalar::{Double, Scalar};
 
-    /// Against the function itself.
+    /// Compared with the function itself.
     #[test]
     fn adapted_coefficients_give_the_cosine() {
         let Tail::Nested(nested) = COSINE else {

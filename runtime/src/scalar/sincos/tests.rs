@@ -8,8 +8,8 @@ use crate::simd::dispatch::{or_skip, skip_missing};
 use crate::simd::dispatch::{run_fused, run_in_registers, run_wide};
 use crate::simd::{Fused, Kernel, Simd};
 
-/// Error of `value` in units in the last place of a type of `digits` bits,
-/// counted at the reference.
+/// Returns the error of `value` in units in the last place of a type with `digits` bits, relative
+/// to the reference.
 fn ulps(value: f64, exact: &Signed, digits: i32, least: i32) -> f64 {
     let (mantissa, exponent) = parts(exact.size.to_f64());
     let top = exponent + 63 - mantissa.leading_zeros() as i32;
@@ -53,7 +53,7 @@ fn f32_is_nearly_always_rounded_correctly() {
     std::println!("worst error of f32: {:.6} ulp at {:e}", worst.0, worst.1);
 }
 
-/// Angles of one state and of lanes in fused arithmetic.
+/// Test computation: sines and cosines of the angles of one state, in fused arithmetic.
 struct SinesInFused<T, const N: usize>([T; N]);
 
 impl<T: Lane, const N: usize> Kernel<T> for SinesInFused<T, N>
@@ -69,7 +69,7 @@ where
     }
 }
 
-/// The first angles that fill a register.
+/// Test computation: sines and cosines of the first angles, as many as fill a register.
 struct InRegister<'a, T>(&'a [T]);
 
 impl<T: Lane> Kernel<T> for InRegister<'_, T> {
@@ -138,7 +138,7 @@ fn fused_f32_is_right_to_an_ulp_everywhere() {
     );
 }
 
-/// Zeros, tiny angles, no angles, and both signs.
+/// Checks that sines are odd functions, for zeros, tiny angles, NaN, and both signs.
 #[test]
 fn fused_sines_are_odd() {
     for angle in signed() {
@@ -271,7 +271,7 @@ fn bits((sine, cosine): (f64, f64)) -> (u64, u64) {
     (sine.to_bits(), cosine.to_bits())
 }
 
-/// Angles of both signs, zeros among them, large ones here and there.
+/// Returns angles of both signs, including zeros and a few large ones.
 fn signed() -> Vec<f64> {
     let mut all = angles(500);
     all.push(0.0);
@@ -306,8 +306,8 @@ impl<const N: usize> Kernel<f64> for InLanes<N> {
     }
 }
 
-/// One angle has the same sine and cosine alone, among others, in lanes, for
-/// every instruction set.
+/// Checks that an angle has the same sine and cosine alone, among others and in lanes, for every
+/// instruction set.
 fn agrees<const N: usize>() {
     let all = signed();
     for &angles in all.as_chunks::<N>().0 {

@@ -11,17 +11,15 @@ use core::ops::{Add, AddAssign, Div, Mul, Neg, Sub};
 use super::sincos::reduction::modulo_half_pi;
 use super::{Real, Scalar};
 
-/// A number of about 106 bits: the sum of two `f64`, of which the second is at
-/// most half a unit in the last place of the first.
+/// Number of about 106 bits: the sum of two `f64`, the second of which is at most half a unit in
+/// the last place of the first.
 ///
-/// For references: what emitted code computes with these is right to 30 digits,
-/// at some twenty times the cost. Constants enter as the `f64` that the code
-/// writes.
+/// It is meant for reference values: emitted code on these numbers is accurate to 30 digits, at
+/// about twenty times the cost. Constants are the `f64` in the code.
 ///
-/// Relative errors, with u = 2⁻⁵³: sum and difference 3u², product 7u²,
-/// quotient 15u² (M. Joldes, J.-M. Muller, V. Popescu, ACM Trans. Math. Softw.
-/// 44 (2017) 15), sine and cosine 4u² (measured: 1.8u²). Numbers below
-/// 2⁻⁹⁰⁰ and above 2⁹⁶⁰ lose the second part.
+/// Relative errors, with u = 2⁻⁵³: sum and difference 3u², product 7u², quotient 15u² (M. Joldes,
+/// J.-M. Muller, V. Popescu, ACM Trans. Math. Softw. 44 (2017) 15), sine and cosine 4u² (measured:
+/// 1.8u²). Numbers below 2⁻⁹⁰⁰ and above 2⁹⁶⁰ lose the second part.
 ///
 /// # Examples
 ///
@@ -38,7 +36,7 @@ pub struct Double {
     low: f64,
 }
 
-/// a + b and what the rounded sum lacks (Knuth).
+/// Returns the rounded sum a + b and its rounding error (Knuth).
 #[inline(always)]
 pub(crate) fn two_sum<T: Scalar>(a: T, b: T) -> (T, T) {
     let sum = a + b;
@@ -46,15 +44,15 @@ pub(crate) fn two_sum<T: Scalar>(a: T, b: T) -> (T, T) {
     (sum, (a - (sum - other)) + (b - other))
 }
 
-/// As [`two_sum`], for |a| ≥ |b| or a = 0 (Dekker).
+/// Returns the rounded sum and its error like [`two_sum`], for |a| ≥ |b| or a = 0 (Dekker).
 #[inline(always)]
 fn fast_two_sum(a: f64, b: f64) -> (f64, f64) {
     let sum = a + b;
     (sum, b - (sum - a))
 }
 
-/// a · b and what the rounded product lacks (Dekker, Numer. Math. 18 (1971)
-/// 224). The same two numbers as with a fused multiply-add.
+/// Returns the rounded product a · b and its rounding error (Dekker, Numer. Math. 18 (1971) 224):
+/// the same two numbers as with a fused multiply-add.
 #[inline(always)]
 fn two_product(a: f64, b: f64) -> (f64, f64) {
     // 2²⁷ + 1
@@ -73,20 +71,20 @@ impl Double {
         Self { high, low }
     }
 
-    /// `a + b`, as exactly as two parts can hold it.
+    /// Returns `a + b` as a number in two parts, as accurately as it can be represented.
     #[must_use]
     pub fn sum(a: f64, b: f64) -> Self {
         let (high, low) = two_sum(a, b);
         Self { high, low }
     }
 
-    /// The nearest `f64`.
+    /// Returns the nearest `f64`.
     #[must_use]
     pub const fn high(self) -> f64 {
         self.high
     }
 
-    /// The part of it that [`high`](Self::high) lacks.
+    /// Returns the difference between the number and [`high`](Self::high).
     #[must_use]
     pub const fn low(self) -> f64 {
         self.low
@@ -102,12 +100,13 @@ impl Double {
         Self::fast_sum(product, error + self.low * factor)
     }
 
-    /// The number of the nearest multiple of π/2, modulo 4, and the distance.
+    /// Returns the number of the nearest multiple of π/2, modulo 4, and the distance from this
+    /// multiple.
     fn modulo_half_pi(self) -> (u64, Self) {
         let (mut quarter, high) = modulo_half_pi(self.high);
         let (more, low) = modulo_half_pi(self.low);
         quarter = quarter.wrapping_add(more);
-        // Three passes keep what cancellation among the first terms uncovers.
+        // Three passes keep the digits that remain after the first terms cancel.
         let mut terms = [low[2], high[2], low[1], high[1], low[0], high[0]];
         for _ in 0..3 {
             for i in 1..terms.len() {
@@ -116,7 +115,7 @@ impl Double {
         }
         let [.., low, high] = terms;
         let mut rest = Self::fast_sum(high, low);
-        // Only where the second part is itself beyond a quarter turn.
+        // Only if the second part itself exceeds a quarter turn.
         if rest.high.abs() > 0.8 {
             let side = 1.0_f64.copysign(rest.high);
             rest = rest - tables::HALF_PI.times(side);
@@ -129,7 +128,7 @@ impl Double {
 impl Add for Double {
     type Output = Self;
 
-    /// AccurateDWPlusDW of Joldes, Muller and Popescu.
+    /// Adds by algorithm AccurateDWPlusDW of Joldes, Muller and Popescu.
     #[inline]
     fn add(self, other: Self) -> Self {
         let (high, error) = two_sum(self.high, other.high);
@@ -151,7 +150,7 @@ impl Sub for Double {
 impl Mul for Double {
     type Output = Self;
 
-    /// DWTimesDW1.
+    /// Multiplies by algorithm DWTimesDW1 of Joldes, Muller and Popescu.
     #[inline]
     fn mul(self, other: Self) -> Self {
         let (product, error) = two_product(self.high, other.high);
@@ -163,7 +162,7 @@ impl Mul for Double {
 impl Div for Double {
     type Output = Self;
 
-    /// DWDivDW2.
+    /// Divides by algorithm DWDivDW2 of Joldes, Muller and Popescu.
     #[inline]
     fn div(self, other: Self) -> Self {
         let quotient = self.high / other.high;
@@ -217,7 +216,7 @@ impl Scalar for Double {
         Self::sum(high, low)
     }
 
-    /// Payne and Hanek's reduction with 190 bits, then Taylor series.
+    /// Uses Payne and Hanek's reduction with 190 bits, then Taylor series.
     fn sin_cos(self) -> (Self, Self) {
         if !self.high.is_finite() {
             return (Self::NAN, Self::NAN);
@@ -245,8 +244,8 @@ impl Scalar for Double {
         }
     }
 
-    /// One step of Newton's method from the root of the first part (A. Karp and
-    /// P. Markstein, ACM Trans. Math. Softw. 23 (1997) 561).
+    /// Takes one step of Newton's method from the root of the first part (A. Karp and P. Markstein,
+    /// ACM Trans. Math. Softw. 23 (1997) 561).
     fn sqrt(self) -> Self {
         let root = Scalar::sqrt(self.high);
         if root == 0.0 || !root.is_finite() {
@@ -261,7 +260,7 @@ impl Scalar for Double {
 impl Real for Double {
     const ZERO: Self = Self::of(0.0, 0.0);
     const ONE: Self = Self::of(1.0, 0.0);
-    /// 2⁻¹⁰⁴: the distance to the next larger number that every operation keeps.
+    /// 2⁻¹⁰⁴: the relative accuracy that every operation keeps.
     const EPSILON: Self = Self::of(4.930_380_657_631_324e-32, 0.0);
     const NAN: Self = Self::of(f64::NAN, f64::NAN);
 
@@ -277,7 +276,7 @@ impl Real for Double {
         }
     }
 
-    /// To the accuracy of `f64`, which step-size control needs.
+    /// Raises to a power with the accuracy of `f64`, which suffices for step-size control.
     fn powf(self, exponent: Self) -> Self {
         Self::from_f64(Real::powf(self.high, exponent.high))
     }
@@ -288,7 +287,7 @@ impl Real for Double {
 }
 
 impl fmt::Display for Double {
-    /// The two parts, whose sum the number is.
+    /// Writes the two parts of the number as a sum.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         fmt::Display::fmt(&self.high, f)?;
         if self.low == 0.0 {

@@ -1,6 +1,6 @@
-//! Constants of the series, each to 107 bits.
+//! Constants of the Taylor series of sine and cosine, each with 107 bits.
 
-// A number in two parts has more digits than one part needs.
+// A number in two parts has more digits than a single part needs.
 #![allow(
     clippy::approx_constant,
     clippy::excessive_precision,
@@ -9,10 +9,10 @@
 
 use super::Double;
 
-/// π/2.
+/// The number π/2.
 pub(super) const HALF_PI: Double = Double::of(1.5707963267948966, 6.123233995736766e-17);
 
-/// (−1)ᵏ/(2k+1)! for k = 1, 2, …, 14.
+/// Coefficients (−1)ᵏ/(2k+1)! of the sine for k = 1, 2, …, 14.
 pub(super) const SINE: [Double; 14] = [
     Double::of(-0.16666666666666666, -9.25185853854297e-18),
     Double::of(0.008333333333333333, 1.1564823173178714e-19),
@@ -30,7 +30,7 @@ pub(super) const SINE: [Double; 14] = [
     Double::of(1.1309962886447716e-31, 1.0498015412959506e-47),
 ];
 
-/// (−1)ᵏ/(2k)! for k = 1, 2, …, 15.
+/// Coefficients (−1)ᵏ/(2k)! of the cosine for k = 1, 2, …, 15.
 pub(super) const COSINE: [Double; 15] = [
     Double::of(-0.5, 0.0),
     Double::of(0.041666666666666664, 2.3129646346357427e-18),

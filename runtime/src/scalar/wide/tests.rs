@@ -7,7 +7,7 @@ use crate::scalar::{Real, Scalar};
 /// u² = 2⁻¹⁰⁶.
 const UNIT: f64 = 1.232_595_164_407_831e-32;
 
-/// Relative error in units of u².
+/// Returns the relative error in units of u².
 fn units(value: Double, exact: &Signed) -> f64 {
     let part = |part: f64| Fixed::<SHORT>::of(part.abs());
     let size = if value.high.is_sign_negative() == value.low.is_sign_negative() {
@@ -29,7 +29,7 @@ fn sine_and_cosine_are_right_to_105_bits() {
         .map(|angle| angle * 2.0_f64.powi(-54) * 0.77)
         .collect();
     for (&high, &low) in all.iter().zip(&low) {
-        // Beyond, the second part is a large angle itself, with an absolute error.
+        // Beyond this the second part is a large angle itself, with an absolute error.
         if high > 2.0_f64.powi(52) {
             continue;
         }

@@ -1,11 +1,12 @@
-//! The widest vector instructions of the machine, chosen at run time.
+//! Run-time choice of the widest vector instructions of the machine.
 //!
-//! A build for x86-64 may use SSE2 only, unless it names a newer processor.
-//! A [`Kernel`] is compiled three times, each with wider instructions allowed and with
-//! the numbers to compute with, and the copy runs that the machine can.
+//! A build for x86-64 may use SSE2 only, unless it is made for a newer processor. A [`Kernel`] is
+//! compiled three times, each time with wider instructions and with the matching number types, and
+//! the widest copy that the machine supports runs.
 //!
-//! The wide registers fuse products with sums, and so does [`in_fused`] for one number
-//! at a time: they have equal bits for AVX2 and AVX-512, and others without.
+//! The wide registers use fused multiply–add, and so does [`in_fused`] for one number at a time.
+//! Results with AVX2 and AVX-512 are identical bit for bit, but differ from results without fused
+//! multiply–add.
 
 #[cfg(not(all(feature = "std", target_arch = "x86_64")))]
 mod portable;
@@ -25,24 +26,24 @@ use super::{Kernel, Simd};
 use crate::scalar::kind::ByKind;
 use crate::scalar::{Lane, Lanes, Scalar};
 
-/// Vector instructions that a build can choose among at run time.
+/// Sets of vector instructions among which a build can choose at run time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 #[non_exhaustive]
 pub enum InstructionSet {
-    /// Instructions that the build was made for: SSE2 for x86-64 by default, NEON for AArch64.
+    /// Instructions for which the build was made: SSE2 for x86-64 by default, NEON for AArch64.
     Build,
-    /// AVX2 and FMA, registers of 256 bits.
+    /// AVX2 and FMA, with registers of 256 bits.
     Avx2,
-    /// AVX-512 (F, VL, DQ and BW) besides, registers of 512 bits.
+    /// AVX-512 (F, VL, DQ and BW), AVX2 and FMA, with registers of 512 bits.
     Avx512,
 }
 
 impl InstructionSet {
-    /// All of them, from narrow to wide.
+    /// All instruction sets, from narrow to wide.
     pub const ALL: [Self; 3] = [Self::Build, Self::Avx2, Self::Avx512];
 
-    /// The widest that this machine has. Without the feature `std`, and on
-    /// other architectures than x86-64, that is [`Build`](Self::Build).
+    /// Returns the widest instruction set that this machine supports. Without the feature `std`,
+    /// and on architectures other than x86-64, this is [`Build`](Self::Build).
     #[inline(always)]
     #[must_use]
     pub fn widest() -> Self {
@@ -60,14 +61,15 @@ impl fmt::Display for InstructionSet {
     }
 }
 
-/// Runs `kernel` with single numbers that fuse, where the type and the machine have some,
-/// and with plain ones elsewhere.
+/// Runs `kernel` with single numbers that use fused multiply–add, if the type and the machine
+/// support it, and with plain numbers otherwise.
 #[inline(always)]
 pub(crate) fn in_fused_numbers<T: Scalar, K: Kernel<T>>(kernel: K) -> K::Output {
     T::by_kind(InFusedNumbers(kernel))
 }
 
-/// Asks for single numbers that fuse.
+/// Step of [`in_fused_numbers`] for a known lane type: runs a kernel with single numbers that use
+/// fused multiply–add.
 struct InFusedNumbers<K>(K);
 
 impl<S: Scalar, K: Kernel<S>> ByKind<S> for InFusedNumbers<K> {
@@ -87,10 +89,11 @@ impl<S: Scalar, K: Kernel<S>> ByKind<S> for InFusedNumbers<K> {
     }
 }
 
-/// Runs `kernel` with fused single numbers and the widest instructions that fuse.
+/// Runs `kernel` with single numbers that use fused multiply–add, and the widest instructions that
+/// have it.
 ///
 /// # Errors
-/// Gives the kernel back if the machine has none.
+/// Returns the kernel unchanged if the machine has no such instructions.
 #[cfg(test)]
 pub(crate) fn run_fused<T: Lane, K: Kernel<T>>(kernel: K) -> Result<K::Output, K> {
     match InstructionSet::widest() {
@@ -102,28 +105,27 @@ pub(crate) fn run_fused<T: Lane, K: Kernel<T>>(kernel: K) -> Result<K::Output, K
     }
 }
 
-/// A computation on one state in fused arithmetic. What it needs is told one by one:
-/// that goes in the processor's registers, where a structure would go through memory.
-// Where there is nothing to choose from, nothing calls it.
+/// A computation on one state that uses fused multiply–add. Its inputs are separate arguments,
+/// which are passed in the processor's registers; a struct would be passed in memory.
+// Unused on targets with a single instruction set.
 #[cfg_attr(not(all(feature = "std", target_arch = "x86_64")), allow(dead_code))]
 pub trait StateKernel<T> {
-    /// Whose state it is.
+    /// Type of the model to which the state belongs.
     type Model;
 
-    /// How long its slices are.
+    /// Length of the slices.
     const LINKS: usize;
 
-    /// True if its functions are so long that parts of them are functions of their
-    /// own, which are compiled for AVX2: then so is the rest.
+    /// True if the model's functions are so long that parts of them are compiled as separate
+    /// functions. These parts are compiled for AVX2, and then the rest must be too.
     const IN_PARTS: bool = Self::LINKS > 63;
 
-    /// Computes `out` in one kind of numbers. What it calls profits only as far as it is
-    /// inlined.
+    /// Computes `out` in one kind of numbers. Called code profits only if it is inlined.
     fn run<V: Simd<T>>(model: &Self::Model, time: T, theta: &[T], omega: &[T], out: &mut [T]);
 }
 
-/// Computes one state of the model in fused arithmetic. False, and nothing done, where
-/// the type or the machine has none.
+/// Runs the computation `K` on one state of the model with fused multiply–add. Returns false,
+/// without computing anything, if the type or the machine has no such arithmetic.
 #[inline(always)]
 pub(crate) fn in_fused<T: Scalar, K: StateKernel<T>>(
     model: &K::Model,
@@ -141,7 +143,7 @@ pub(crate) fn in_fused<T: Scalar, K: StateKernel<T>>(
     })
 }
 
-/// Asks for fused arithmetic.
+/// Step of [`in_fused`] for a known lane type: runs a computation with fused multiply–add.
 struct InFused<'a, K: StateKernel<T>, T> {
     model: &'a K::Model,
     time: T,
@@ -167,41 +169,41 @@ impl<S: Scalar, K: StateKernel<S>> ByKind<S> for InFused<'_, K, S> {
     }
 }
 
-/// Runs `kernel` in a function of its own with AVX2 and FMA, in numbers `V`. For the methods
-/// of types alone that exist where the machine has these.
+/// Runs `kernel` in a separate function with AVX2 and FMA, in numbers `V`. It may be called only by
+/// methods of types that exist only on machines with these instructions.
 #[inline(always)]
 pub(crate) fn outlined_avx2<T, V: Simd<T>, K: Kernel<T>>(kernel: K) -> K::Output {
     machine::outlined_avx2::<T, V, K>(kernel)
 }
 
-/// Does so with AVX-512.
+/// Runs `kernel` like [`outlined_avx2`], but with AVX-512.
 #[cfg(all(target_arch = "x86_64", target_feature = "sse2"))]
 #[inline(always)]
 pub(crate) fn outlined_avx512<T, V: Simd<T>, K: Kernel<T>>(kernel: K) -> K::Output {
     machine::outlined_avx512::<T, V, K>(kernel)
 }
 
-/// Runs `kernel` with the registers of `set`, or with the widest that the
-/// machine has, if these are narrower.
+/// Runs `kernel` with the registers of `set`, or with the widest registers of the machine if these
+/// are narrower.
 #[inline(always)]
 pub(crate) fn run_in_registers<T: Lane, K: Kernel<T>>(set: InstructionSet, kernel: K) -> K::Output {
     machine::run::<T, T::Build, T::Avx2, T::Avx512, K>(Present::at_most(set), kernel)
 }
 
-/// Runs `kernel` with the wide numbers of `set`, or with the widest that the machine
-/// has, if these are narrower.
+/// Runs `kernel` with the wide numbers of `set`, or with the widest numbers of the machine if these
+/// are narrower.
 #[inline(always)]
 pub(crate) fn run_wide<T: Lane, K: Kernel<T>>(set: InstructionSet, kernel: K) -> K::Output {
     machine::run_wide(Present::at_most(set), kernel)
 }
 
-/// Runs `kernel` with the widest numbers of the machine that are made of `T`.
+/// Runs `kernel` with the machine's widest numbers that consist of `T`.
 #[inline(always)]
 pub(crate) fn in_widest<T: Scalar, K: Kernel<T>>(kernel: K) -> K::Output {
     T::by_kind(InWidest(kernel))
 }
 
-/// Asks for the widest numbers.
+/// Step of [`in_widest`] for a known lane type: runs a kernel with the widest numbers.
 struct InWidest<K>(K);
 
 impl<S: Scalar, K: Kernel<S>> ByKind<S> for InWidest<K> {
@@ -212,7 +214,7 @@ impl<S: Scalar, K: Kernel<S>> ByKind<S> for InWidest<K> {
         self.0.run::<S>()
     }
 
-    // Not everywhere where it is asked for.
+    // Not every caller can run a kernel with plain numbers.
     #[inline]
     fn of_plain(self) -> K::Output
     where
@@ -222,13 +224,13 @@ impl<S: Scalar, K: Kernel<S>> ByKind<S> for InWidest<K> {
     }
 }
 
-/// Runs `kernel` with the machine's numbers of four lanes that are made of `T`.
+/// Runs `kernel` with the machine's numbers that consist of four lanes of `T`.
 #[inline(always)]
 pub(crate) fn in_fours<T: Scalar, K: Kernel<T>>(kernel: K) -> K::Output {
     T::by_kind(InFours(kernel))
 }
 
-/// Asks for numbers of four lanes.
+/// Step of [`in_fours`] for a known lane type: runs a kernel with numbers of four lanes.
 struct InFours<K>(K);
 
 impl<S: Scalar, K: Kernel<S>> ByKind<S> for InFours<K> {
@@ -248,10 +250,10 @@ impl<S: Scalar, K: Kernel<S>> ByKind<S> for InFours<K> {
     }
 }
 
-/// Says that a check is skipped which needs these instructions.
+/// Prints that a check is skipped because the machine lacks the instructions that it needs.
 ///
 /// # Panics
-/// Where the environment variable `CI` is set, which promises AVX2.
+/// If the environment variable `CI` is set, because machines of continuous integration have AVX2.
 #[cfg(test)]
 pub(crate) fn or_skip(set: InstructionSet) {
     let promised = set <= InstructionSet::Avx2 && std::env::var_os("CI").is_some();
@@ -259,7 +261,7 @@ pub(crate) fn or_skip(set: InstructionSet) {
     std::println!("skipped: no {set}");
 }
 
-/// Says of each set of instructions that this machine lacks that it is not checked.
+/// Prints, for each instruction set that this machine lacks, that it is not checked.
 #[cfg(test)]
 pub(crate) fn skip_missing() {
     for set in InstructionSet::ALL {

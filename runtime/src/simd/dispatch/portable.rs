@@ -1,10 +1,10 @@
-//! Where there is nothing to choose from.
+//! Choice of instructions for targets that have a single instruction set.
 
 use super::super::{Kernel, Simd};
 use super::{InstructionSet, StateKernel};
 use crate::scalar::Lane;
 
-/// The instructions of the build.
+/// Proof that the machine has the instructions of the build, which it always has.
 #[derive(Clone, Copy)]
 pub(in crate::simd) struct Present;
 
@@ -36,8 +36,7 @@ pub(super) fn run<T, B: Simd<T>, A: Simd<T>, W: Simd<T>, K: Kernel<T>>(
 
 #[inline(always)]
 pub(super) fn run_wide<T: Lane, K: Kernel<T>>(_set: Present, kernel: K) -> K::Output {
-    // Registers of a target without vector instructions would be arrays: more code, and no
-    // faster.
+    // On a target without vector instructions, registers would be arrays: more code, and no faster.
     #[cfg(all(target_family = "wasm", not(target_feature = "simd128")))]
     return kernel.run::<T>();
     #[cfg(not(all(target_family = "wasm", not(target_feature = "simd128"))))]

@@ -1,4 +1,4 @@
-//! The instructions of x86-64 machines, asked for when first used.
+//! Detection of the vector instructions of x86-64 machines at their first use.
 
 #![allow(unsafe_code)]
 
@@ -9,19 +9,18 @@ use super::super::{Kernel, Simd};
 use super::{InstructionSet, StateKernel};
 use crate::scalar::Lane;
 
-/// 0 before the first question, then 1 + the answer.
+/// Detected instruction set: 0 before the first detection, then 1 + the index of the set.
 static WIDEST: AtomicU8 = AtomicU8::new(0);
 
-/// Instructions that this machine has: nothing but the question whether it has them makes
-/// one.
+/// Instructions that this machine has. A value of this type can only be created by the detection.
 #[derive(Clone, Copy)]
 pub(in crate::simd) struct Present(InstructionSet);
 
 impl Present {
-    /// The widest.
+    /// Returns the widest set of the machine.
     #[inline(always)]
     pub(super) fn widest() -> Self {
-        // Each thread that comes first finds the same answer.
+        // Several threads may detect at the same time; they find the same result.
         Self(match WIDEST.load(Ordering::Relaxed) {
             0 => detect(),
             1 => InstructionSet::Build,
@@ -30,13 +29,14 @@ impl Present {
         })
     }
 
-    /// Instructions of `set`, or the widest, if these are narrower: each set holds those before.
+    /// Returns the instructions of `set`, or the machine's widest if these are narrower; each set
+    /// includes the ones before it.
     #[inline(always)]
     pub(super) fn at_most(set: InstructionSet) -> Self {
         Self(set.min(Self::widest().0))
     }
 
-    /// Which they are.
+    /// Returns the instruction set.
     #[inline(always)]
     pub(super) fn set(self) -> InstructionSet {
         self.0
@@ -69,8 +69,8 @@ fn has_avx512() -> bool {
         && std::is_x86_feature_detected!("avx512bw")
 }
 
-/// Runs `kernel` with instructions of the machine, in numbers `B` for those of the build,
-/// `A` for AVX2 and `W` for AVX-512, which need no more than these.
+/// Runs `kernel` with the instructions `set`, in numbers of type `B` for the instructions of the
+/// build, `A` for AVX2, or `W` for AVX-512. These types need no other instructions.
 #[inline(always)]
 pub(super) fn run<T, B: Simd<T>, A: Simd<T>, W: Simd<T>, K: Kernel<T>>(
     set: Present,
@@ -78,23 +78,24 @@ pub(super) fn run<T, B: Simd<T>, A: Simd<T>, W: Simd<T>, K: Kernel<T>>(
 ) -> K::Output {
     match set.0 {
         InstructionSet::Build => kernel.in_build::<B>(),
-        // SAFETY: the machine has AVX2 and FMA: they are `Present`.
+        // SAFETY: the machine has AVX2 and FMA, because they are `Present`.
         InstructionSet::Avx2 => unsafe { kernel.in_avx2::<A>() },
-        // SAFETY: the machine has these instructions of AVX-512: they are `Present`.
+        // SAFETY: the machine has these instructions of AVX-512, because they are `Present`.
         InstructionSet::Avx512 => unsafe { kernel.in_avx512::<W>() },
     }
 }
 
-/// With SSE2 in single numbers: every model would be compiled once more for registers of
-/// two, and hardly a machine runs them.
+/// Runs `kernel` with wide numbers. With SSE2 only, single numbers are used: registers of two
+/// numbers would require every model to be compiled once more, and hardly any machine would use
+/// them.
 #[inline(always)]
 pub(super) fn run_wide<T: Lane, K: Kernel<T>>(set: Present, kernel: K) -> K::Output {
     run::<T, T, T::Avx2, T::Avx512, K>(set, kernel)
 }
 
-/// Runs `K` with the widest instructions that fuse: 512 bits have twice as many
-/// registers, which single numbers gain by too. False, and nothing done, if the machine
-/// has none that do, or if a slice has another length.
+/// Runs `K` on one state with the widest instructions that have fused multiply–add. AVX-512 has
+/// twice as many registers, which helps single numbers too. Returns false, without computing
+/// anything, if the machine has no fused multiply–add or if a slice has a wrong length.
 #[inline(always)]
 pub(super) fn run_state<T: Lane, K: StateKernel<T>>(
     model: &K::Model,
@@ -114,13 +115,13 @@ pub(super) fn run_state<T: Lane, K: StateKernel<T>>(
     };
     match widest.0 {
         InstructionSet::Build => return false,
-        // SAFETY: AVX2 and FMA are `Present`; the pointers are those of slices of
-        // `K::LINKS` numbers, the last one borrowed mutably.
+        // SAFETY: AVX2 and FMA are `Present`; the pointers are those of slices of `K::LINKS`
+        // numbers, the last of which is mutably borrowed.
         InstructionSet::Avx2 => unsafe {
             state_avx2::<T, K>(model, time, theta, omega, out);
         },
-        // SAFETY: AVX-512 is `Present` too; the pointers are those of slices of
-        // `K::LINKS` numbers, the last one borrowed mutably.
+        // SAFETY: AVX-512 is `Present` too; the pointers are those of slices of `K::LINKS` numbers,
+        // the last of which is mutably borrowed.
         InstructionSet::Avx512 => unsafe {
             state_avx512::<T, K>(model, time, theta, omega, out);
         },
@@ -128,7 +129,7 @@ pub(super) fn run_state<T: Lane, K: StateKernel<T>>(
     true
 }
 
-/// As `state`.
+/// Runs [`state`], compiled for AVX2, with the same conditions for safety.
 #[target_feature(enable = "avx2,fma")]
 unsafe fn state_avx2<T: Lane, K: StateKernel<T>>(
     model: &K::Model,
@@ -137,11 +138,11 @@ unsafe fn state_avx2<T: Lane, K: StateKernel<T>>(
     omega: *const T,
     out: *mut T,
 ) {
-    // SAFETY: the caller's.
+    // SAFETY: guaranteed by the caller.
     unsafe { state::<T, K>(model, time, theta, omega, out) }
 }
 
-/// As `state`.
+/// Runs [`state`], compiled for AVX-512, with the same conditions for safety.
 #[target_feature(enable = "avx2,fma,avx512f,avx512vl,avx512dq,avx512bw")]
 unsafe fn state_avx512<T: Lane, K: StateKernel<T>>(
     model: &K::Model,
@@ -150,16 +151,16 @@ unsafe fn state_avx512<T: Lane, K: StateKernel<T>>(
     omega: *const T,
     out: *mut T,
 ) {
-    // SAFETY: the caller's.
+    // SAFETY: guaranteed by the caller.
     unsafe { state::<T, K>(model, time, theta, omega, out) }
 }
 
-/// Without the lengths of the slices, which are known: for three links these, and
-/// asking for them again, are a thirtieth of an evaluation.
+/// Runs the computation `K` on one state, given pointers instead of slices. For three links,
+/// passing and checking the lengths would take a thirtieth of an evaluation.
 ///
 /// # Safety
-/// The pointers must be those of slices of `K::LINKS` numbers, of which the last
-/// one is borrowed mutably, and outlives the call like the others.
+/// The pointers must be those of slices of `K::LINKS` numbers that outlive the call; the last one
+/// must be mutably borrowed.
 #[inline(always)]
 unsafe fn state<T: Lane, K: StateKernel<T>>(
     model: &K::Model,
@@ -168,7 +169,7 @@ unsafe fn state<T: Lane, K: StateKernel<T>>(
     omega: *const T,
     out: *mut T,
 ) {
-    // SAFETY: the caller's.
+    // SAFETY: guaranteed by the caller.
     let (theta, omega, out) = unsafe {
         (
             slice::from_raw_parts(theta, K::LINKS),
@@ -181,20 +182,20 @@ unsafe fn state<T: Lane, K: StateKernel<T>>(
 
 #[inline(always)]
 pub(super) fn outlined_avx2<T, V: Simd<T>, K: Kernel<T>>(kernel: K) -> K::Output {
-    // SAFETY: methods of types ask for it that exist in computations alone which `run_state`
-    // or `run` has started, where these instructions are `Present` (see `simd`).
+    // SAFETY: called by methods of types that exist only in computations which `run_state` or `run`
+    // has started, where these instructions are `Present` (see `simd`).
     unsafe { avx2::<T, V, K>(kernel) }
 }
 
 #[inline(always)]
 pub(super) fn outlined_avx512<T, V: Simd<T>, K: Kernel<T>>(kernel: K) -> K::Output {
-    // SAFETY: likewise where AVX-512 is `Present`.
+    // SAFETY: as in `outlined_avx2`, with AVX-512 `Present`.
     unsafe { avx512::<T, V, K>(kernel) }
 }
 
-// Functions of this module, unlike those of `InSet`: as parts of one state they must stand with
-// `state_avx2` and `state_avx512`. Apart, one state of 127 links written out takes 1.36 times as
-// long.
+// Functions of this module, unlike those of `InSet`: as parts of one state they must be in the same
+// module as `state_avx2` and `state_avx512`. In another module, one state of 127 links written out
+// takes 1.36 times as long.
 
 #[target_feature(enable = "avx2,fma")]
 fn avx2<T, V: Simd<T>, K: Kernel<T>>(kernel: K) -> K::Output {
@@ -206,8 +207,8 @@ fn avx512<T, V: Simd<T>, K: Kernel<T>>(kernel: K) -> K::Output {
     kernel.run::<V>()
 }
 
-/// A computation in the instructions of each set: methods of its own, since compilers put a
-/// method beside its type, and compile side by side what stands in different modules.
+/// A computation that can run in the instructions of each set. It is a trait, because compilers
+/// place a method in the module of its type, and compile different modules in parallel.
 trait InSet<T>: Kernel<T> + Sized {
     #[inline(never)]
     fn in_build<V: Simd<T>>(self) -> Self::Output {

@@ -1,7 +1,7 @@
-//! Registers of 128 bits that builds have of themselves: those of NEON on AArch64, and of WebAssembly
-//! with `simd128`.
+//! Registers of 128 bits that every build for the target has: NEON on AArch64, and `simd128` in
+//! WebAssembly.
 //!
-//! Nothing fuses, so that each lane has the bits of a plain number.
+//! They have no fused multiply–add here, so that each lane has the same bits as a plain number.
 
 #![allow(unsafe_code)]
 
@@ -50,8 +50,7 @@ macro_rules! register {
         impl $name {
             #[inline(always)]
             fn from_array(numbers: [$lane; $lanes]) -> Self {
-                // SAFETY: the register holds so many numbers of that size, in order and
-                // without padding.
+                // SAFETY: the register holds exactly these numbers, in order and without padding.
                 Self(unsafe { core::mem::transmute::<[$lane; $lanes], machine::$float::Vector>(numbers) })
             }
 
@@ -72,7 +71,7 @@ macro_rules! register {
 
         impl Simd<$lane> for $name {
             type One = $lane;
-            /// All bits set, or none.
+            /// Mask of lanes: in each lane, all bits are set or none.
             type Mask = machine::$float::Mask;
             type Chunk = [$lane; $lanes];
 
@@ -80,7 +79,7 @@ macro_rules! register {
             fn mask(meant: impl Fn(usize) -> bool) -> machine::$float::Mask {
                 let lanes: [$bits; $lanes] =
                     core::array::from_fn(|lane| if meant(lane) { !0 } else { 0 });
-                // SAFETY: as many bits, any of which are a mask.
+                // SAFETY: the sizes are equal, and all bit patterns are valid masks.
                 unsafe { core::mem::transmute::<[$bits; $lanes], machine::$float::Mask>(lanes) }
             }
 
@@ -125,12 +124,12 @@ macro_rules! register {
 }
 
 register! {
-    /// Two numbers.
+    /// Register of two `f64`.
     F64x2 = 2 of f64, in double, bits: u64
 }
 
 register! {
-    /// Four numbers.
+    /// Register of four `f32`.
     F32x4 = 4 of f32, in single, bits: u32
 }
 
@@ -148,7 +147,7 @@ impl Scalar for F64x2 {
     #[inline(always)]
     fn sin_cos(self) -> (Self, Self) {
         if machine::double::all_below(self.0, double::LIMIT) {
-            return double::turn(double::reduce(self));
+            return double::sin_cos_of(double::reduce(self));
         }
         let (sines, cosines) = double::far(self.to_array());
         (Self::from_array(sines), Self::from_array(cosines))

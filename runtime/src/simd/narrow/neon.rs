@@ -1,11 +1,11 @@
-//! Instructions of NEON, which every AArch64 machine has.
+//! NEON instructions, which every AArch64 machine has.
 
 macro_rules! instructions {
     ($($function:ident($($argument:ident: $kind:ty),+) -> $result:ty = $call:expr;)+) => {
         $(
             #[inline(always)]
             pub(in super::super) fn $function($($argument: $kind),+) -> $result {
-                // SAFETY: the machine has NEON, and none of these instructions touches memory.
+                // SAFETY: the machine has NEON, and none of these instructions accesses memory.
                 unsafe { $call }
             }
         )+
@@ -17,7 +17,7 @@ pub(super) mod double {
     use core::arch::aarch64::*;
 
     pub(in super::super) type Vector = float64x2_t;
-    /// All bits of a lane set, or none.
+    /// Mask of lanes: in each lane, all bits are set or none.
     pub(in super::super) type Mask = uint64x2_t;
 
     instructions! {
@@ -41,7 +41,7 @@ pub(super) mod double {
             let (one, sign) = (vdupq_n_u64(1), vdupq_n_u64(1 << 63));
             let [quarter, sine, cosine] =
                 [quarter, sine, cosine].map(|number| vreinterpretq_u64_f64(number));
-            // All bits of the lanes with odd numbers.
+            // All bits of the lanes with an odd quarter.
             let odd = vtstq_u64(quarter, one);
             let exchange = vandq_u64(odd, veorq_u64(sine, cosine));
             let turned = |value, quarters| {
@@ -58,7 +58,7 @@ pub(super) mod single {
     use core::arch::aarch64::*;
 
     pub(in super::super) type Vector = float32x4_t;
-    /// All bits of a lane set, or none.
+    /// Mask of lanes: in each lane, all bits are set or none.
     pub(in super::super) type Mask = uint32x4_t;
 
     instructions! {

@@ -1,4 +1,4 @@
-//! Instructions of WebAssembly with `simd128`.
+//! WebAssembly instructions of `simd128`.
 
 macro_rules! instructions {
     ($($function:ident($($argument:ident: $kind:ty),+) -> $result:ty = $call:expr;)+) => {
@@ -16,7 +16,7 @@ pub(super) mod double {
     use core::arch::wasm32::*;
 
     pub(in super::super) type Vector = v128;
-    /// All bits of a lane set, or none.
+    /// Mask of lanes: in each lane, all bits are set or none.
     pub(in super::super) type Mask = v128;
 
     instructions! {
@@ -33,7 +33,7 @@ pub(super) mod double {
             i64x2_all_true(f64x2_lt(f64x2_abs(a), f64x2_splat(limit)));
         exchange(quarter: Vector, sine: Vector, cosine: Vector) -> (Vector, Vector) = {
             let (one, sign) = (i64x2_splat(1), i64x2_splat(i64::MIN));
-            // All bits of the lanes with odd numbers.
+            // All bits of the lanes with an odd quarter.
             let odd = i64x2_neg(v128_and(quarter, one));
             let exchange = v128_and(odd, v128_xor(sine, cosine));
             let turned = |value, quarters| {
@@ -50,7 +50,7 @@ pub(super) mod single {
     use core::arch::wasm32::*;
 
     pub(in super::super) type Vector = v128;
-    /// All bits of a lane set, or none.
+    /// Mask of lanes: in each lane, all bits are set or none.
     pub(in super::super) type Mask = v128;
 
     instructions! {

@@ -1,5 +1,4 @@
-//! Registers of AVX2 and AVX-512: products fuse with sums, and sines are the
-//! fused ones.
+//! Registers of AVX2 and AVX-512 with fused multiply–add, and the sines that use them.
 
 use core::arch::x86_64::*;
 
@@ -19,7 +18,7 @@ macro_rules! fused {
 
             #[inline(always)]
             fn mul_add(self, factor: Self, addend: Self) -> Self {
-                // SAFETY: a register exists where the machine has its instructions alone.
+                // SAFETY: a register exists only on machines that have its instructions.
                 Self(unsafe { $fused(self.0, factor.0, addend.0) })
             }
 
@@ -52,7 +51,7 @@ fused!(F32x8: f32, _mm256_fmadd_ps);
 fused!(F64x8: f64, _mm512_fmadd_pd);
 fused!(F32x16: f32, _mm512_fmadd_ps);
 
-/// For plain numbers, which do not fuse.
+/// Arithmetic of plain numbers, without fused multiply–add.
 impl double::UnfusedNumber for F64x4 {
     #[inline(always)]
     fn splat(value: f64) -> Self {
@@ -61,12 +60,12 @@ impl double::UnfusedNumber for F64x4 {
 
     #[inline(always)]
     fn exchange(quarter: Self, sine: Self, cosine: Self) -> (Self, Self) {
-        // SAFETY: a register exists where the machine has its instructions alone.
+        // SAFETY: a register exists only on machines that have its instructions.
         unsafe {
             let sign = _mm256_set1_pd(-0.0);
             let quarter = _mm256_castpd_si256(quarter.0);
             let next = _mm256_add_epi64(quarter, _mm256_set1_epi64x(1));
-            // Blends look at the highest bits.
+            // Blend instructions read the highest bit of each lane.
             let odd = _mm256_castsi256_pd(_mm256_slli_epi64::<63>(quarter));
             let sine_signs = _mm256_castsi256_pd(_mm256_slli_epi64::<62>(quarter));
             let cosine_signs = _mm256_castsi256_pd(_mm256_slli_epi64::<62>(next));
@@ -83,7 +82,7 @@ impl double::UnfusedNumber for F64x4 {
     }
 }
 
-/// Registers of AVX2 as [`fused::FusingNumber`].
+/// Implements [`fused::FusingNumber`] for registers of AVX2.
 macro_rules! avx2 {
     (
         $name:ident = $lanes:literal of $lane:ident, $splat:ident,
@@ -96,10 +95,10 @@ macro_rules! avx2 {
 
             #[inline(always)]
             fn exchange(quarter: Self, high: Self, lost: Self, cosine: Self) -> (Self, Self) {
-                // SAFETY: a register exists where the machine has its instructions alone.
+                // SAFETY: a register exists only on machines that have its instructions.
                 unsafe {
                     let quarter = $integers(quarter.0);
-                    // Blends look at the highest bits.
+                    // Blend instructions read the highest bit of each lane.
                     let odd = $numbers($shift::<$parity>(quarter));
                     let signs = $and($splat(-0.0), $numbers($shift::<$sign>(quarter)));
                     let sine = $blend((high - lost).0, cosine.0, odd);
@@ -110,24 +109,24 @@ macro_rules! avx2 {
 
             #[inline(always)]
             fn or_differing(self, one: Self, other: Self) -> Self {
-                // SAFETY: a register exists where the machine has its instructions alone.
+                // SAFETY: a register exists only on machines that have its instructions.
                 Self(unsafe { $or(self.0, $xor(one.0, other.0)) })
             }
 
             #[inline(always)]
             fn only_low_bits(self) -> bool {
-                // SAFETY: a register exists where the machine has its instructions alone.
+                // SAFETY: a register exists only on machines that have its instructions.
                 unsafe {
                     _mm256_testz_si256(
                         $integers(self.0),
-                        $integers($splat(<$lane as fused::Float>::ABOVE)),
+                        $integers($splat(<$lane as fused::Float>::HIGH_BITS)),
                     ) == 1
                 }
             }
 
             #[inline(always)]
             fn all_below(self, limit: $lane) -> bool {
-                // SAFETY: a register exists where the machine has its instructions alone.
+                // SAFETY: a register exists only on machines that have its instructions.
                 unsafe {
                     let below = $compare::<_CMP_LT_OQ>(self.0, $splat(limit));
                     $mask(below) == (1 << $lanes) - 1
@@ -159,10 +158,10 @@ avx2! {
     _mm256_and_ps, _mm256_or_ps, _mm256_xor_ps, _mm256_blendv_ps, _mm256_cmp_ps, _mm256_movemask_ps
 }
 
-/// a ⊕ (b ∧ c), bit by bit, as the table of a ternary instruction.
+/// Truth table, for the ternary logic instruction, of a ⊕ (b ∧ c), bit by bit.
 const XOR_AND: i32 = 0x78;
 
-/// Registers of AVX-512 as [`fused::FusingNumber`].
+/// Implements [`fused::FusingNumber`] for registers of AVX-512.
 macro_rules! avx512 {
     (
         $name:ident = $lanes:literal of $lane:ident, $splat:ident, $integer:ident,
@@ -175,12 +174,12 @@ macro_rules! avx512 {
 
             #[inline(always)]
             fn exchange(quarter: Self, high: Self, lost: Self, cosine: Self) -> (Self, Self) {
-                // SAFETY: a register exists where the machine has its instructions alone.
+                // SAFETY: a register exists only on machines that have its instructions.
                 unsafe {
                     let sign = $integers($splat(-0.0));
                     let quarter = $integers(quarter.0);
-                    // Writing a mask takes the time of a product: one serves both. A
-                    // sum under a mask takes half of one more than a copy under it.
+                    // Writing a mask takes as long as a product, so both results use one mask. A
+                    // masked sum takes half as long as a sum and a masked copy.
                     let odd = $test(quarter, $integer(1));
                     let signs = $shift::<$sign>(quarter);
                     let sine = $integers($choose((high - lost).0, odd, cosine.0));
@@ -194,22 +193,22 @@ macro_rules! avx512 {
 
             #[inline(always)]
             fn or_differing(self, one: Self, other: Self) -> Self {
-                // SAFETY: a register exists where the machine has its instructions alone.
+                // SAFETY: a register exists only on machines that have its instructions.
                 Self(unsafe { $or(self.0, $xor(one.0, other.0)) })
             }
 
             #[inline(always)]
             fn only_low_bits(self) -> bool {
-                // SAFETY: a register exists where the machine has its instructions alone.
+                // SAFETY: a register exists only on machines that have its instructions.
                 unsafe {
-                    let above = $splat(<$lane as fused::Float>::ABOVE);
+                    let above = $splat(<$lane as fused::Float>::HIGH_BITS);
                     $test($integers(self.0), $integers(above)) == 0
                 }
             }
 
             #[inline(always)]
             fn all_below(self, limit: $lane) -> bool {
-                // SAFETY: a register exists where the machine has its instructions alone.
+                // SAFETY: a register exists only on machines that have its instructions.
                 unsafe { $compare::<_CMP_LT_OQ>(self.0, $splat(limit)) == !0 }
             }
 

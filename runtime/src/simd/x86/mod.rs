@@ -1,7 +1,7 @@
 //! Registers of x86-64: SSE2, AVX2 with FMA, AVX-512.
 //!
-//! Here are the types and what they share; how they fuse and find sines is in
-//! [`plain`] for those of SSE2, in [`fused`] for the others.
+//! This module contains the types and their common operations. Fusing and sines are in [`plain`]
+//! for SSE2 and in [`fused`] for the others.
 
 #![allow(unsafe_code)]
 
@@ -17,14 +17,14 @@ use super::{Fused, Kernel, Sealed, Simd, dispatch};
 use crate::scalar::sincos::fused as fused_sines;
 use words::{masked_f32, masked_f64, words_of_avx2, words_of_avx512, words_of_sse2};
 
-// Of all calls of instructions here and in the two files: builds with SSE2 alone have this
-// module. The wider types are named by what `dispatch` has started alone, once it
-// has asked the machine for the instructions, and cannot be reached by other crates (see
-// `simd`). None of these instructions touches memory. The types hold so many numbers of
-// that size, in order and without padding, which makes the transmutations right.
+// For all calls of instructions here and in the two files: builds with SSE2 alone contain this
+// module. The wider types are named only by computations that `dispatch` has started, after it has
+// detected the instructions, and other crates cannot reach them (see `simd`). None of these
+// instructions accesses memory. The types hold exactly the given numbers, in order and without
+// padding, so that the transmutations are valid.
 
-/// Sines that are computed ahead or late, and functions of one's own, for registers that
-/// fuse; as by default for others.
+/// Defines when sines are computed (ahead or when needed), and separate functions, for registers
+/// with fused multiply–add; other registers have the defaults.
 macro_rules! ahead {
     () => {};
     ($lane:ident, $own:ident) => {
@@ -47,25 +47,25 @@ macro_rules! ahead {
     };
 }
 
-/// The larger of two sizes: the greater after signs are gone, or by the one
+/// Returns the larger magnitude: the larger number after the signs are cleared, or by the single
 /// instruction that AVX-512 has for it.
 macro_rules! larger {
     (_mm512_range_pd, $andnot:ident, $one:ident, $other:ident) => {
-        // SAFETY: a register exists where the machine has its instructions alone.
+        // SAFETY: a register exists only on machines that have its instructions.
         Self(unsafe { _mm512_range_pd::<LARGER_SIZE>($one.0, $other.0) })
     };
     (_mm512_range_ps, $andnot:ident, $one:ident, $other:ident) => {
-        // SAFETY: a register exists where the machine has its instructions alone.
+        // SAFETY: a register exists only on machines that have its instructions.
         Self(unsafe { _mm512_range_ps::<LARGER_SIZE>($one.0, $other.0) })
     };
     ($max:ident, $andnot:ident, $one:ident, $other:ident) => {{
         let sign = Self::splat(-0.0).0;
-        // SAFETY: a register exists where the machine has its instructions alone.
+        // SAFETY: a register exists only on machines that have its instructions.
         Self(unsafe { $max($andnot(sign, $one.0), $andnot(sign, $other.0)) })
     }};
 }
 
-/// Choice of `range`: the operand of larger size, without its sign.
+/// Mode of the instruction `range` that selects the operand of larger magnitude, without its sign.
 const LARGER_SIZE: i32 = 0b1011;
 
 macro_rules! register {
@@ -91,7 +91,7 @@ macro_rules! register {
 
             #[inline(always)]
             fn neg(self) -> Self {
-                // The compiler knows this as a change of sign.
+                // The compiler recognises this as a change of sign.
                 Self::splat(-0.0) - self
             }
         }
@@ -99,27 +99,28 @@ macro_rules! register {
         impl $name {
             #[inline(always)]
             pub(crate) fn from_array(numbers: [$lane; $lanes]) -> Self {
-                // SAFETY: a register exists where the machine has its instructions alone.
+                // SAFETY: a register exists only on machines that have its instructions.
                 Self(unsafe { core::mem::transmute::<[$lane; $lanes], $vector>(numbers) })
             }
 
             #[inline(always)]
             pub(crate) fn to_array(self) -> [$lane; $lanes] {
-                // SAFETY: a register exists where the machine has its instructions alone.
+                // SAFETY: a register exists only on machines that have its instructions.
                 unsafe { core::mem::transmute::<$vector, [$lane; $lanes]>(self.0) }
             }
 
-            /// The register whose word `i`, of 32 bits, is `words[i]` of this one.
+            /// Returns a register whose 32-bit word number `i` is word number `words[i]` of this
+            /// one.
             #[inline(always)]
             pub(crate) fn permuted(self, words: &[u32; $count]) -> Self {
-                // SAFETY: the register exists where the machine has its instructions alone,
-                // and has as many words.
+                // SAFETY: the register exists only on machines that have its instructions, and has
+                // exactly these words.
                 Self(unsafe { $words(self.0, words) })
             }
 
             #[inline(always)]
             fn root(self) -> Self {
-                // SAFETY: a register exists where the machine has its instructions alone.
+                // SAFETY: a register exists only on machines that have its instructions.
                 Self(unsafe { $sqrt(self.0) })
             }
         }
@@ -128,7 +129,7 @@ macro_rules! register {
 
         impl Simd<$lane> for $name {
             type One = $one;
-            /// All bits set, or none.
+            /// Mask of lanes: in each lane, all bits are set or none.
             type Mask = Self;
             type Chunk = [$lane; $lanes];
 
@@ -143,7 +144,7 @@ macro_rules! register {
 
             #[inline(always)]
             fn choose(self, other: Self, mask: Self) -> Self {
-                // SAFETY: a register exists where the machine has its instructions alone.
+                // SAFETY: a register exists only on machines that have its instructions.
                 Self(unsafe { $or($and(mask.0, self.0), $andnot(mask.0, other.0)) })
             }
 
@@ -152,7 +153,7 @@ macro_rules! register {
                 static MASKS: [[u32; $count]; $lanes] = first_lanes();
                 match MASKS.get(count) {
                     Some(mask) => {
-                        // SAFETY: as many bits, any of which are numbers.
+                        // SAFETY: the sizes are equal, and all bit patterns are valid numbers.
                         let mask = Self(unsafe {
                             core::mem::transmute::<[u32; $count], $vector>(*mask)
                         });
@@ -169,14 +170,14 @@ macro_rules! register {
 
             #[inline(always)]
             fn splat(value: $lane) -> Self {
-                // SAFETY: a register exists where the machine has its instructions alone.
+                // SAFETY: a register exists only on machines that have its instructions.
                 Self(unsafe { $splat(value) })
             }
 
             $(
                 #[inline(always)]
                 unsafe fn write_some(self, start: *mut $lane, count: usize) {
-                    // SAFETY: the caller's.
+                    // SAFETY: guaranteed by the caller.
                     unsafe { $some(self.0, start, count) }
                 }
             )?
@@ -200,7 +201,7 @@ macro_rules! register {
 
             #[inline(always)]
             fn $function(self, other: Self) -> Self {
-                // SAFETY: a register exists where the machine has its instructions alone.
+                // SAFETY: a register exists only on machines that have its instructions.
                 Self(unsafe { $instruction(self.0, other.0) })
             }
         }
@@ -208,7 +209,7 @@ macro_rules! register {
 }
 
 register! {
-    /// A register of SSE2.
+    /// SSE2 register of two `f64`.
     F64x2: __m128d = 2 of f64, one: f64,
     _mm_set1_pd, _mm_add_pd, _mm_sub_pd, _mm_mul_pd, _mm_div_pd, _mm_sqrt_pd,
     _mm_and_pd, _mm_andnot_pd, _mm_or_pd, larger: _mm_max_pd,
@@ -216,7 +217,7 @@ register! {
 }
 
 register! {
-    /// A register of SSE2.
+    /// SSE2 register of four `f32`.
     F32x4: __m128 = 4 of f32, one: f32,
     _mm_set1_ps, _mm_add_ps, _mm_sub_ps, _mm_mul_ps, _mm_div_ps, _mm_sqrt_ps,
     _mm_and_ps, _mm_andnot_ps, _mm_or_ps, larger: _mm_max_ps,
@@ -224,7 +225,7 @@ register! {
 }
 
 register! {
-    /// A register of AVX2.
+    /// AVX2 register of four `f64`.
     F64x4: __m256d = 4 of f64, one: Fused<f64>,
     _mm256_set1_pd, _mm256_add_pd, _mm256_sub_pd, _mm256_mul_pd, _mm256_div_pd, _mm256_sqrt_pd,
     _mm256_and_pd, _mm256_andnot_pd, _mm256_or_pd, larger: _mm256_max_pd,
@@ -232,7 +233,7 @@ register! {
 }
 
 register! {
-    /// A register of AVX2.
+    /// AVX2 register of eight `f32`.
     F32x8: __m256 = 8 of f32, one: Fused<f32>,
     _mm256_set1_ps, _mm256_add_ps, _mm256_sub_ps, _mm256_mul_ps, _mm256_div_ps, _mm256_sqrt_ps,
     _mm256_and_ps, _mm256_andnot_ps, _mm256_or_ps, larger: _mm256_max_ps,
@@ -240,7 +241,7 @@ register! {
 }
 
 register! {
-    /// A register of AVX-512.
+    /// AVX-512 register of eight `f64`.
     F64x8: __m512d = 8 of f64, one: Fused<f64>,
     _mm512_set1_pd, _mm512_add_pd, _mm512_sub_pd, _mm512_mul_pd, _mm512_div_pd, _mm512_sqrt_pd,
     _mm512_and_pd, _mm512_andnot_pd, _mm512_or_pd, larger: _mm512_range_pd,
@@ -248,7 +249,7 @@ register! {
 }
 
 register! {
-    /// A register of AVX-512.
+    /// AVX-512 register of sixteen `f32`.
     F32x16: __m512 = 16 of f32, one: Fused<f32>,
     _mm512_set1_ps, _mm512_add_ps, _mm512_sub_ps, _mm512_mul_ps, _mm512_div_ps, _mm512_sqrt_ps,
     _mm512_and_ps, _mm512_andnot_ps, _mm512_or_ps, larger: _mm512_range_ps,

@@ -1,4 +1,4 @@
-//! Registers of SSE2: nothing fuses, and sines are the portable ones.
+//! Registers of SSE2, which have no fused multiply–add and use the portable sines.
 
 use core::arch::x86_64::*;
 
@@ -27,7 +27,7 @@ impl Scalar for F64x2 {
             _mm_movemask_pd(_mm_cmplt_pd(size, _mm_set1_pd(double::LIMIT))) == 0b11
         };
         if common {
-            return double::turn(double::reduce(self));
+            return double::sin_cos_of(double::reduce(self));
         }
         let (sines, cosines) = double::far(self.to_array());
         (Self::from_array(sines), Self::from_array(cosines))

@@ -1,15 +1,15 @@
-//! Permutations of a register's words, and writing its first numbers alone, for which
-//! the standard library has no functions of one name.
+//! Functions that permute a register's words, or write only its first numbers. The standard library
+//! has no common names for these instructions.
 
 use core::arch::x86_64::*;
 
-/// Without an instruction for it.
+/// Permutes the words of a register on machines that have no instruction for it.
 #[inline(always)]
 pub(super) unsafe fn words_of_sse2<V>(vector: V, words: &[u32; 4]) -> V {
-    // SAFETY: the caller's vector has 128 bits, any of which are four words.
+    // SAFETY: the caller's vector has 128 bits, and all bit patterns are four valid words.
     let own: [u32; 4] = unsafe { core::mem::transmute_copy(&vector) };
     let result = words.map(|word| own[word as usize % 4]);
-    // SAFETY: four words are 128 bits, any of which are numbers.
+    // SAFETY: four words are 128 bits, and all bit patterns are valid numbers.
     unsafe { core::mem::transmute_copy(&result) }
 }
 
@@ -36,21 +36,21 @@ pub(super) unsafe fn words_of_avx512<V>(vector: V, words: &[u32; 16]) -> V {
 /// Writes the first `count` numbers to `start`.
 ///
 /// # Safety
-/// So many numbers may be written there.
+/// `count` numbers must be writable there.
 #[inline(always)]
 pub(super) unsafe fn masked_f64(vector: __m512d, start: *mut f64, count: usize) {
     let mask = !((0xff_u32 << count.min(8)) as u8);
-    // SAFETY: the caller's: the numbers of the mask alone are written.
+    // SAFETY: guaranteed by the caller: only the masked numbers are written.
     unsafe { _mm512_mask_storeu_pd(start, mask, vector) }
 }
 
 /// Writes the first `count` numbers to `start`.
 ///
 /// # Safety
-/// So many numbers may be written there.
+/// `count` numbers must be writable there.
 #[inline(always)]
 pub(super) unsafe fn masked_f32(vector: __m512, start: *mut f32, count: usize) {
     let mask = !((0xffff_u32 << count.min(16)) as u16);
-    // SAFETY: the caller's: the numbers of the mask alone are written.
+    // SAFETY: guaranteed by the caller: only the masked numbers are written.
     unsafe { _mm512_mask_storeu_ps(start, mask, vector) }
 }

@@ -1,27 +1,27 @@
-//! Small differences that act back, under torques from outside.
+//! Small differences with back-reaction, under external torques.
 
 use super::{SmallDifferences, coordinates, differences};
 use crate::scalar::Scalar;
-use crate::system::function::{At, Computes, compute_in, functions};
-use crate::system::second_order::{CastSecondOrder, HandedOver, SecondOrder, SecondOrderOde};
-use crate::system::transverse::parts;
-use crate::system::{Forced, LaneTorques, Torques, Workspace};
+use crate::system::forced::ByTorques;
+use crate::system::function::{At, Computes, functions};
+use crate::system::motion::{Motion, MotionFunction, Opaque};
+use crate::system::{Forced, Workspace};
 
-/// A model of [`SmallDifferences`] that takes torques from outside: `emit(small)` with
+/// A model of [`SmallDifferences`] that accepts external torques: `emit(small)` with
 /// `emit(forces)`.
 ///
-/// Generalized torques stand as angles do: those on the angles in phase, each the sum
-/// of the torques on all copies, and those on the differences, Σ e Q with the weights e
-/// of the copies; [`DifferencePatterns::torques`](crate::system::DifferencePatterns::torques)
-/// forms both. Their power on the model's energy is that of torques times rates, exactly.
-/// Torques on differences count as small as these: the errors are then of the orders that
-/// they have without torques.
+/// Generalized torques have the order of the coordinates: first one for each in-phase angle, which
+/// is the sum of the torques on all copies, then one for each difference, Σ e Q with the torques Q
+/// and weights e of the copies;
+/// [`DifferencePatterns::torques`](crate::system::DifferencePatterns::torques) computes both. Their
+/// power is exactly Σ torque · rate. Torques on differences must be as small as the differences:
+/// the errors then have the same order as without torques.
 pub trait ForcedDifferences<T: Scalar>:
     SmallDifferences<T> + Forced<T> + Computes<functions::SmallDifferencesUnderTorques, T>
 {
-    /// Writes the second time derivatives (in rad/s²) of the angles in phase and, behind
-    /// them, of the differences, under torques (in N m): of angles, rates and torques those
-    /// in phase and those of differences. NaN for slices of other lengths.
+    /// Writes the second time derivatives (rad/s²) of the in-phase angles, then of the differences,
+    /// under torques (N m). Each pair of slices has the values of the in-phase angles, then of the
+    /// differences. NaN for slices of other lengths.
     #[inline]
     fn small_accelerations_under_into(
         &self,
@@ -54,9 +54,9 @@ impl<T: Scalar, P> ForcedDifferences<T> for P where
 {
 }
 
-/// [`SmallOde`](type@super::SmallOde) under [`Torques`]: functions of the time, of angles and
-/// differences one behind the other, and of their rates, which write as many generalized
-/// torques.
+/// [`SmallOde`](type@super::SmallOde) under external [`Torques`](crate::system::Torques). These are
+/// functions of the time, of the coordinates (angles, then differences) and of their rates, and
+/// write one generalized torque per coordinate.
 ///
 /// # Examples
 ///
@@ -89,18 +89,10 @@ impl<T: Scalar, P> ForcedDifferences<T> for P where
 /// assert!(one > other && other > 0.0);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-pub type SmallUnderTorques<P, F> = SecondOrderOde<NearlyPushed<P, F>>;
+pub type SmallUnderTorques<P, F> = Motion<P, functions::SmallDifferencesUnderTorques, ByTorques<F>>;
 
-/// A model nearly in phase and the torques on it: [`SmallUnderTorques`].
-#[derive(Clone, Copy, Debug)]
-pub struct NearlyPushed<P, F> {
-    model: P,
-    differences: usize,
-    torques: HandedOver<F>,
-}
-
-impl<P, F> SecondOrderOde<NearlyPushed<P, F>> {
-    /// The model, or a reference to one, under the torques that
+impl<P, F> SmallUnderTorques<P, F> {
+    /// Creates the system of a model (or of a reference to one) under the torques that
     /// `torques(time, angles, rates, out)` writes.
     pub fn new<T: Scalar>(model: P, torques: F) -> Self
     where
@@ -110,79 +102,19 @@ impl<P, F> SecondOrderOde<NearlyPushed<P, F>> {
         Self::of(model, torques)
     }
 
-    /// The model, or a reference to one, under [`Torques`] of a type of their own, or
-    /// under a vector of those that stay as they are.
+    /// Creates the system of a model (or of a reference to one) under torques of a type that
+    /// implements [`Torques`](crate::system::Torques), or under a vector of constant torques.
     pub fn of<T: Scalar>(model: P, torques: F) -> Self
     where
         P: SmallDifferences<T>,
     {
-        SecondOrderOde(NearlyPushed {
-            model,
-            differences: differences(P::TRANSVERSE, P::SMALL),
-            torques: HandedOver(torques),
-        })
-    }
-
-    /// Returns the torques, to change them.
-    pub fn torques_mut(&mut self) -> &mut F {
-        &mut self.0.torques.0
+        let differences = differences(P::TRANSVERSE, P::SMALL);
+        Self::new_of(model, 0, differences, ByTorques(Opaque(torques)))
     }
 }
 
-impl<T: Scalar, P, F> SecondOrder<T> for NearlyPushed<P, F>
-where
-    P: Computes<functions::SmallDifferencesUnderTorques, T>,
-    F: Torques<T>,
+impl<P: ForcedDifferences<T>, T: Scalar> MotionFunction<P, T>
+    for functions::SmallDifferencesUnderTorques
 {
-    fn coordinates(&self) -> usize {
-        self.model.links() + self.differences
-    }
-
-    #[inline(always)]
-    fn rates(
-        &self,
-        workspace: Option<&mut Workspace<T>>,
-        time: T,
-        [angles, velocities]: [&[T]; 2],
-        [first, second]: [&mut [T]; 2],
-    ) {
-        // Torques stand where the rates of the angles will.
-        self.torques.0.torques_into(time, angles, velocities, first);
-        let split = |values| parts(self.model.links(), values);
-        let ([theta, difference], [omega, rate]) = (split(angles), split(velocities));
-        let [torques, on_differences] = parts(self.model.links(), first);
-        let given = [theta, omega, difference, rate, torques, on_differences];
-        compute_in(
-            &self.model,
-            workspace,
-            At::time(time),
-            &given,
-            &mut [second],
-        );
-        first.copy_from_slice(velocities);
-    }
-}
-
-impl<T: Scalar, P, F> CastSecondOrder<T> for NearlyPushed<P, F>
-where
-    P: ForcedDifferences<T>,
-    F: LaneTorques<T>,
-{
-    type On<S: Scalar> =
-        NearlyPushed<<P as Computes<functions::SmallDifferencesUnderTorques, T>>::On<S>, F::Of<S>>;
-
     const COORDINATES: Option<usize> = coordinates(P::KNOWN_LINKS, P::TRANSVERSE, P::SMALL);
-
-    fn on<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Self::On<S> {
-        let model = &self.model;
-        NearlyPushed {
-            model: Computes::<functions::SmallDifferencesUnderTorques, T>::on(model, &convert),
-            differences: self.differences,
-            torques: HandedOver(self.torques.0.on_scalar(&convert)),
-        }
-    }
-
-    fn shape(&self) -> usize {
-        self.model.shape()
-    }
 }

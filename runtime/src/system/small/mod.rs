@@ -1,24 +1,22 @@
-//! Small differences that act back on the motion that they are beside.
+//! Small differences between copies, which act back on the in-phase motion.
 
 mod forced;
 
-pub use forced::{ForcedDifferences, NearlyPushed, SmallUnderTorques};
+pub use forced::{ForcedDifferences, SmallUnderTorques};
 
 use super::by_reference::by_reference;
 use super::function::{At, Computes, functions};
-use super::second_order::{CastSecondOrder, SecondOrder, SecondOrderOde};
-use super::transverse::{parts, with_differences};
+use super::motion::{Free, Motion, MotionFunction, parts};
 use super::{Transverse, TransverseSector, Workspace};
 use crate::scalar::Scalar;
 
-/// A model of copies in phase whose small differences act back on the motion: `in_phase(…)`
-/// with `emit(small)`, or `emit(small(child, …))` for some sectors.
+/// Model of copies that move in phase, with small differences that act back on this motion:
+/// `in_phase(…)` with `emit(small)`, or `emit(small(child, …))` for some sectors.
 ///
-/// The equations are those of the Lagrangian of the whole tree through second order in
-/// the differences δ of the sectors (physics (12.4)): linear in δ, quadratic in what δ does to
-/// the angles in phase, and with an energy of their own that friction and drives alone
-/// change. Without differences the motion is the one in phase, and tiny differences
-/// follow [`Transverse`].
+/// The equations are those of the Lagrangian of the whole tree through second order in the
+/// differences δ of the sectors (physics (12.4)): linear in δ for the differences, quadratic in δ
+/// for the in-phase angles. They have an energy that only friction and drives change. Without
+/// differences the motion is the in-phase motion, and tiny differences follow [`Transverse`].
 ///
 /// Copies have the angles θ + e δ as in [`Transverse`]; δ belongs to the copies under one
 /// holder, or to those of all holders with squares of e that add up to the number of
@@ -31,12 +29,11 @@ use crate::scalar::Scalar;
 pub trait SmallDifferences<T: Scalar>:
     Transverse<T> + Computes<functions::SmallDifferences, T>
 {
-    /// The sectors that act back, by their index in
-    /// [`TRANSVERSE`](Transverse::TRANSVERSE): differences stand in this order.
+    /// Indices in [`TRANSVERSE`](Transverse::TRANSVERSE) of the sectors that act back on the
+    /// in-phase motion. States contain the differences in this order.
     const SMALL: &'static [usize];
 
-    /// Writes the second time derivatives (in rad/s²) of the angles in phase and, behind
-    /// them, of the differences.
+    /// Writes the second time derivatives (rad/s²) of the in-phase angles, then of the differences.
     #[inline]
     fn small_accelerations_into(
         &self,
@@ -57,8 +54,8 @@ pub trait SmallDifferences<T: Scalar>:
         );
     }
 
-    /// Returns the energy (in J) of the whole tree through second order in the
-    /// differences, kinetic and potential.
+    /// Returns the energy (J) of the whole tree up to second order in the differences, kinetic and
+    /// potential.
     fn small_energy_of(
         &self,
         theta: &[T],
@@ -68,7 +65,7 @@ pub trait SmallDifferences<T: Scalar>:
     ) -> T;
 }
 
-/// Returns the number of differences that act back in a model of these sectors.
+/// Returns the number of differences that act back, in a model with these sectors.
 pub(super) const fn differences(sectors: &[TransverseSector], small: &[usize]) -> usize {
     let (mut count, mut index) = (0, 0);
     while index < small.len() {
@@ -78,7 +75,8 @@ pub(super) const fn differences(sectors: &[TransverseSector], small: &[usize]) -
     count
 }
 
-/// Returns the number of angles and differences, where that of links is known.
+/// Returns the number of coordinates: angles and differences; `None` if the number of links is
+/// unknown.
 pub(super) const fn coordinates(
     links: Option<usize>,
     sectors: &[TransverseSector],
@@ -90,10 +88,9 @@ pub(super) const fn coordinates(
     }
 }
 
-/// The angles in phase and the small differences that act back on them as a first-order
-/// system: the state is the angles, the differences of all sectors in the order of
-/// [`SMALL`](SmallDifferences::SMALL), the angular velocities and the rates of the
-/// differences.
+/// First-order system of the in-phase angles and of the small differences that act back on them:
+/// the state is the angles, the differences of all sectors in the order of
+/// [`SMALL`](SmallDifferences::SMALL), the angular velocities and the rates of the differences.
 ///
 /// ```
 /// # #[cfg(feature = "macros")] {
@@ -124,33 +121,23 @@ pub(super) const fn coordinates(
 /// assert!((reaction(2e-3) / reaction(1e-3) - 1.0).abs() < 1e-3);
 /// # }
 /// ```
-pub type SmallOde<P> = SecondOrderOde<Nearly<P>>;
+pub type SmallOde<P> = Motion<P, functions::SmallDifferences, Free>;
 
-/// A model nearly in phase: [`SmallOde`](type@SmallOde).
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Nearly<P> {
-    model: P,
-    differences: usize,
-}
-
-/// Returns the angles in phase and the small differences of a model, or of a reference to one,
-/// as a first-order system.
+/// Creates the first-order system of a model (or of a reference to one): its in-phase angles and
+/// small differences.
 #[allow(non_snake_case)]
 pub fn SmallOde<T: Scalar, P: SmallDifferences<T>>(model: P) -> SmallOde<P> {
-    SecondOrderOde(Nearly {
-        model,
-        differences: differences(P::TRANSVERSE, P::SMALL),
-    })
+    Motion::new_of(model, 0, differences(P::TRANSVERSE, P::SMALL), Free)
 }
 
-impl<P> SecondOrderOde<Nearly<P>> {
-    /// Returns the energy (in J) of a state; NaN for one of another length.
+impl<P> SmallOde<P> {
+    /// Returns the energy (J) of a state; NaN for a state of a wrong length.
     pub fn energy<T: Scalar>(&self, state: &[T]) -> T
     where
         P: SmallDifferences<T>,
     {
-        let Self(Nearly { model, differences }) = self;
-        let half = model.links() + differences;
+        let model = &self.model;
+        let half = model.links() + self.differences;
         if state.len() != 2 * half {
             return T::from_f64(f64::NAN);
         }
@@ -161,38 +148,8 @@ impl<P> SecondOrderOde<Nearly<P>> {
     }
 }
 
-impl<T: Scalar, P: Computes<functions::SmallDifferences, T>> SecondOrder<T> for Nearly<P> {
-    fn coordinates(&self) -> usize {
-        self.model.links() + self.differences
-    }
-
-    #[inline(always)]
-    fn rates(
-        &self,
-        workspace: Option<&mut Workspace<T>>,
-        time: T,
-        state: [&[T]; 2],
-        rates: [&mut [T]; 2],
-    ) {
-        with_differences(&self.model, workspace, At::time(time), state, rates);
-    }
-}
-
-impl<T: Scalar, P: SmallDifferences<T>> CastSecondOrder<T> for Nearly<P> {
-    type On<S: Scalar> = Nearly<<P as Computes<functions::SmallDifferences, T>>::On<S>>;
-
+impl<P: SmallDifferences<T>, T: Scalar> MotionFunction<P, T> for functions::SmallDifferences {
     const COORDINATES: Option<usize> = coordinates(P::KNOWN_LINKS, P::TRANSVERSE, P::SMALL);
-
-    fn on<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Self::On<S> {
-        Nearly {
-            model: Computes::<functions::SmallDifferences, T>::on(&self.model, convert),
-            differences: self.differences,
-        }
-    }
-
-    fn shape(&self) -> usize {
-        self.model.shape()
-    }
 }
 
 by_reference! {

@@ -1,12 +1,14 @@
-//! Links of a tree in loops as bodies: energies and powers.
+//! Energies and powers of trees in loops.
 
 mod equations;
+mod slopes;
 mod terms;
 
 use alloc::vec::Vec;
 use core::marker::PhantomData;
 
 pub use equations::{BodyEquations, PointEquations};
+pub use slopes::LinkSlopes;
 
 use super::equations::LinkMotion;
 use super::shape::{Neighbours, Shape};
@@ -15,22 +17,22 @@ use crate::scalar::{Scalar, at};
 use crate::system::Workspace;
 use terms::{LinkTerm, TreeState, sum_of};
 
-/// The links of a tree in loops as bodies. Emitted models hold them where energies are asked for.
+/// Links of a large tree as rigid bodies, for energies and powers computed in loops over the links.
+/// Emitted models contain them if energies are requested.
 ///
-/// All functions take O(links), with memory that the caller keeps: up to five numbers
-/// for each link. In numbers that do not fuse, values have the same
-/// bits on every machine.
+/// All functions take O(links) operations and a workspace from the caller, of up to five numbers
+/// per link. Without fused multiply–add, values have the same bits on every machine.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Bodies<E, T> {
     shape: Shape,
-    /// Rows of all links or generations, one after the other.
+    /// Constants, one row per link or per generation, stored one after the other.
     rows: Vec<T>,
     equations: PhantomData<E>,
 }
 
 impl<E: BodyEquations, T: Scalar> Bodies<E, T> {
-    /// Bodies with the constants of each link or of each generation, one after the
-    /// other, as [`BodyEquations::Body`] has them.
+    /// Creates bodies from the rows of constants of all links or of all generations, in the order
+    /// of [`BodyEquations::Body`].
     #[must_use]
     pub fn new(shape: Shape, rows: Vec<T>) -> Self {
         Self {
@@ -40,15 +42,15 @@ impl<E: BodyEquations, T: Scalar> Bodies<E, T> {
         }
     }
 
-    /// Returns these bodies on other scalars.
+    /// Returns these bodies with constants of another scalar type.
     #[must_use]
     pub fn cast<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Bodies<E, S> {
         let rows = self.rows.iter().map(|&value| convert(value));
         Bodies::new(self.shape.clone(), rows.collect())
     }
 
-    /// Kinetic energy, J, in the frame of reference that moves with the root's pivot. NaN
-    /// for slices of another length than there are links.
+    /// Returns the kinetic energy, in J, in the frame of reference of the root's pivot. NaN if a
+    /// slice does not have one number per link.
     #[must_use]
     pub fn kinetic_energy(&self, workspace: &mut Workspace<T>, theta: &[T], omega: &[T]) -> T {
         let drive = [T::from_f64(0.0); 3];
@@ -60,8 +62,8 @@ impl<E: BodyEquations, T: Scalar> Bodies<E, T> {
         sum_of::<KineticEnergy, E, T>(self, workspace, state)
     }
 
-    /// Potential energy, J, zero where all angles are zero and springs at rest. NaN for a
-    /// slice of another length than there are links.
+    /// Returns the potential energy, in J; zero if all angles are zero and all springs relaxed. NaN
+    /// if the slice does not have one number per link.
     #[must_use]
     pub fn potential_energy(&self, workspace: &mut Workspace<T>, theta: &[T]) -> T {
         let state = TreeState {
@@ -72,9 +74,9 @@ impl<E: BodyEquations, T: Scalar> Bodies<E, T> {
         sum_of::<PotentialEnergy, E, T>(self, workspace, state)
     }
 
-    /// Power, W, of an acceleration of the root's pivot and a torque on the root: the first
-    /// by inertial forces in the centres of mass. NaN for slices of another length than there
-    /// are links.
+    /// Returns the power of the drive, in W. `drive` is the acceleration x, y of the root's pivot
+    /// (m/s²), which acts by inertial forces at the centres of mass, and a torque on the root (N
+    /// m). NaN if a slice does not have one number per link.
     #[must_use]
     pub fn drive_power(
         &self,
@@ -91,8 +93,8 @@ impl<E: BodyEquations, T: Scalar> Bodies<E, T> {
         sum_of::<DrivePower, E, T>(self, workspace, state)
     }
 
-    /// Power, W, of friction and drag, never positive. NaN for a slice of another length than
-    /// there are links.
+    /// Returns the power of friction and drag, in W, which is never positive. NaN if the slice does
+    /// not have one number per link.
     #[must_use]
     pub fn friction_power(&self, omega: &[T]) -> T {
         -self.powers(omega, |body, strip, index| {
@@ -112,8 +114,8 @@ impl<E: BodyEquations, T: Scalar> Bodies<E, T> {
         })
     }
 
-    /// Power Q·ω, W, of torques Q from outside. NaN for slices of another length than
-    /// there are links.
+    /// Returns the power Q·ω, in W, of external torques Q (N m). NaN if a slice does not have one
+    /// number per link.
     #[must_use]
     pub fn outside_power(&self, omega: &[T], torques: &[T]) -> T {
         if torques.len() != omega.len() {
@@ -132,8 +134,8 @@ impl<E: BodyEquations, T: Scalar> Bodies<E, T> {
         })
     }
 
-    /// The sum of a power of each link; NaN for velocities of another number and where rows
-    /// are lacking.
+    /// Returns the sum of `power` over all links, in W; NaN if the number of velocities is wrong or
+    /// constants are missing.
     #[inline(always)]
     fn powers(&self, omega: &[T], power: impl Fn(&E::Body<T>, Neighbours, usize) -> [T; 1]) -> T {
         let nan = T::from_f64(f64::NAN);
@@ -154,7 +156,7 @@ impl<E: BodyEquations, T: Scalar> Bodies<E, T> {
     }
 }
 
-/// A link that turns at this rate, in no direction that is known.
+/// Returns the motion of a link with the angular velocity `omega` (rad/s) and an unspecified angle.
 #[inline(always)]
 fn turning_at<T: Scalar>(omega: T) -> LinkMotion<T> {
     let unknown = T::from_f64(f64::NAN);

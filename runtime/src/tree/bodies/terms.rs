@@ -1,4 +1,4 @@
-//! Sums over the links, of terms that are formed of several neighbours at once.
+//! Sums over all links, whose terms are computed for several neighbouring links at once.
 
 use core::marker::PhantomData;
 
@@ -11,19 +11,19 @@ use crate::tree::LinkMotion;
 use crate::tree::columns::Columns;
 use crate::tree::equations::Row;
 use crate::tree::sum::total;
-use crate::tree::sweep::VectorPlaces;
+use crate::tree::sweep::VectorIndices;
 
-/// A term of each link that is summed over the tree.
+/// A term of one link, such as its kinetic energy, that is summed over all links of a tree.
 pub(super) trait LinkTerm {
-    /// The term takes the velocity of the link's pivot.
+    /// True if the term depends on the velocity of the link's pivot.
     const PIVOTS: bool = false;
 
-    /// The term takes the angle of the joint and no velocities; without, velocities and no
-    /// joints.
+    /// True if the term depends on the joint angle but not on velocities; otherwise it depends on
+    /// velocities but not on the joint angle.
     const AT_REST: bool = false;
 
-    /// Returns the term of a link, of the velocity of its pivot and of what the drive does: the
-    /// acceleration of the root's pivot, and the torque on this link.
+    /// Returns the term of a link, given the velocity of its pivot and the drive: the acceleration
+    /// of the root's pivot, and the torque on this link.
     fn term<E: BodyEquations, V: Scalar>(
         body: &E::Body<V>,
         link: LinkMotion<V>,
@@ -32,17 +32,17 @@ pub(super) trait LinkTerm {
     ) -> [V; 1];
 }
 
-/// Angles and velocities of all links, and the acceleration of the root's pivot and the torque
-/// on the root.
+/// Angles and velocities of all links, the acceleration of the root's pivot, and the torque on the
+/// root.
 #[derive(Clone, Copy)]
 pub(super) struct TreeState<'a, T> {
     pub(super) theta: &'a [T],
-    /// The angles where terms are those of a tree at rest.
+    /// Angular velocities; for a term without velocities, the angles.
     pub(super) omega: &'a [T],
     pub(super) drive: [T; 3],
 }
 
-/// Returns the sum of the terms; NaN for slices of another length than there are links.
+/// Returns the sum of the terms; NaN if a slice has another length than the number of links.
 pub(super) fn sum_of<S: LinkTerm, E: BodyEquations, T: Scalar>(
     bodies: &Bodies<E, T>,
     workspace: &mut Workspace<T>,
@@ -61,26 +61,27 @@ pub(super) fn sum_of<S: LinkTerm, E: BodyEquations, T: Scalar>(
     sum.flatten().unwrap_or_else(|| T::from_f64(f64::NAN))
 }
 
-/// What terms are formed of.
+/// Sum of a term over all links, with its input and workspace, as an operation that runs in vector
+/// registers.
 struct LinkSums<'a, S, E, T> {
     bodies: &'a Bodies<E, T>,
     state: TreeState<'a, T>,
-    /// Columns of sines and cosines, of terms, and of velocities of pivots where terms take them.
+    /// Workspace columns of sines, cosines, terms and, if the term needs them, pivot velocities.
     numbers: &'a mut [T],
     kind: PhantomData<S>,
 }
 
 impl<S: LinkTerm, E: BodyEquations, T: Scalar> Kernel<T> for LinkSums<'_, S, E, T> {
-    /// None where rows or parents are lacking.
+    /// The sum; `None` if constants or parents are missing.
     type Output = Option<T>;
 
-    // Nothing is fused: the terms have the same bits in all registers.
+    // No operation is fused: the terms have the same bits in all registers.
     #[inline(always)]
     fn run<V: Simd<T>>(self) -> Option<T> {
         let (bodies, links) = (self.bodies, self.state.theta.len());
         let (turned, others) = self.numbers.split_at_mut(2 * links);
         let (sines, cosines) = turned.split_at_mut(links);
-        turn(self.state.theta, sines, cosines);
+        write_sines(self.state.theta, sines, cosines);
         let (terms, pivots) = others.split_at_mut(links);
         let along = Along::<'_, S, E, T> {
             given: self.state.omega,
@@ -96,7 +97,7 @@ impl<S: LinkTerm, E: BodyEquations, T: Scalar> Kernel<T> for LinkSums<'_, S, E, 
                     let body = bodies.row::<V>(strip.row)?;
                     let own = along.from(strip.link, strip.count)?;
                     let parents = along.from(parent, strip.count)?;
-                    let mut places = VectorPlaces::of::<T, V>(strip.count);
+                    let mut places = VectorIndices::of::<T, V>(strip.count);
                     while let Some(place) = places.next() {
                         own.form(&body, place, Some((&parents, place)))?;
                     }
@@ -114,9 +115,10 @@ impl<S: LinkTerm, E: BodyEquations, T: Scalar> Kernel<T> for LinkSums<'_, S, E, 
     }
 }
 
-/// Writes sines and cosines of angles: those of each by itself, sooner.
+/// Writes sines and cosines of all angles. The results have the same bits as if each angle were
+/// evaluated alone.
 #[inline(always)]
-fn turn<T: Scalar>(angles: &[T], sines: &mut [T], cosines: &mut [T]) {
+fn write_sines<T: Scalar>(angles: &[T], sines: &mut [T], cosines: &mut [T]) {
     const BLOCK: usize = 8;
     let (blocks, rest) = angles.as_chunks::<BLOCK>();
     let (sine_blocks, sines) = sines.as_chunks_mut::<BLOCK>();
@@ -129,12 +131,12 @@ fn turn<T: Scalar>(angles: &[T], sines: &mut [T], cosines: &mut [T]) {
     }
 }
 
-/// The way from the root to the leaves.
+/// Columns of a tree's links for the downward pass, from the root to the leaves.
 struct Along<'a, S, E, T> {
-    /// Angular velocities, or the angles of a tree at rest.
+    /// Angular velocities; for a term without velocities, the angles.
     given: &'a [T],
     drive: [T; 3],
-    /// Sines and cosines.
+    /// Columns of sines and cosines.
     turned: Columns<'a, T, 2>,
     pivots: Columns<'a, T, 2>,
     terms: Columns<'a, T, 1>,
@@ -142,8 +144,8 @@ struct Along<'a, S, E, T> {
 }
 
 impl<S: LinkTerm, E: BodyEquations, T: Scalar> Along<'_, S, E, T> {
-    /// Forms the velocity of the pivot of a link, or of as many as `V` has lanes, whose
-    /// parents have a place in their own columns, and their terms.
+    /// Computes the pivot velocities and the terms of one link, or of several links, one in each
+    /// lane of `V`. The values of their parents are in the same columns.
     #[inline(always)]
     fn form<V: Simd<T>>(
         &self,
@@ -173,7 +175,7 @@ impl<S: LinkTerm, E: BodyEquations, T: Scalar> Along<'_, S, E, T> {
         self.terms.store(place, &term)
     }
 
-    /// The columns of so many links, from one on.
+    /// Returns the columns restricted to `count` links from index `first` on.
     #[inline(always)]
     fn from(&self, first: usize, count: usize) -> Option<Self> {
         Some(Self {
@@ -189,7 +191,8 @@ impl<S: LinkTerm, E: BodyEquations, T: Scalar> Along<'_, S, E, T> {
         })
     }
 
-    /// The motion of links, each as if it hung from the ground.
+    /// Returns the motion of the links at index `place`, each as if it hung directly from the
+    /// ground.
     #[inline(always)]
     fn motion<V: Simd<T>>(&self, place: usize) -> Option<LinkMotion<V>> {
         let [sine, cosine] = self.turned.load(place)?;
@@ -199,7 +202,7 @@ impl<S: LinkTerm, E: BodyEquations, T: Scalar> Along<'_, S, E, T> {
 }
 
 impl<E: BodyEquations, T: Scalar> Bodies<E, T> {
-    /// Returns a row, if there is one.
+    /// Returns the row of constants with this number, if it exists.
     #[inline(always)]
     pub(super) fn row<V: Simd<T>>(&self, number: usize) -> Option<E::Body<V>> {
         let start = number * <E::Body<T> as Row<T>>::LENGTH;

@@ -1,7 +1,7 @@
-//! The pieces of a tree that scales are taken through: all of it, or of a large tree
-//! what is above a generation, and blocks of neighbours of that generation with all below
-//! them. What is formed along a scale stays in the cache while all scales are taken
-//! through a block.
+//! Pieces of a tree, in which energies by scale are computed one after the other. A small tree is
+//! one piece. A large tree is divided at a generation into the part above it and blocks, each of
+//! which is some neighbouring links of that generation with everything below them. All scales are
+//! computed for one block before the next, so that its numbers stay in the cache.
 
 use super::columns::{BIAS, PIVOT, SHIFT, ScaleColumns, WORKING};
 use super::shape::ScaleShape;
@@ -12,14 +12,16 @@ use crate::tree::memory::take;
 
 /// The pieces of a tree.
 pub(super) struct Pieces {
-    /// The tree, or what is above the blocks and their first generation.
+    /// The whole tree; if it is divided, the part above the blocks together with the blocks' first
+    /// generation.
     above: ScaleShape,
-    /// The shape of a block, and the number of its first generation in the tree.
+    /// Shape of a block, and the index of its first generation in the tree; `None` if the tree is
+    /// not divided.
     block: Option<(ScaleShape, usize)>,
 }
 
 impl Pieces {
-    /// None where there are too many generations.
+    /// Divides a tree into pieces. Returns `None` if it has too many generations.
     pub(super) fn new(copies: &[usize], shape: &ScaleShape) -> Option<Self> {
         let Some((cut, width)) = shape.cut() else {
             let (above, block) = (*shape, None);
@@ -34,59 +36,71 @@ impl Pieces {
         })
     }
 
-    /// Numbers that are formed above the blocks, or in a tree without any: along each
-    /// scale by itself, which blocks need later, or along one after the other; and two for
-    /// each link and scale. Then those in a block.
-    fn rooms(&self, scales: usize) -> [[usize; 2]; 2] {
-        let room = |column: usize, sets: usize| [sets * WORKING * column, 2 * scales * column];
+    /// Workspace lengths: first for the links above the blocks (per scale, shared, and two per link
+    /// and scale), then for one block.
+    fn buffer_lens(&self, scales: usize) -> [[usize; 2]; 2] {
+        let lengths = |column: usize, sets: usize| [sets * WORKING * column, 2 * scales * column];
         match &self.block {
-            Some((block, _)) => [room(self.above.column, scales), room(block.column, 1)],
-            None => [room(self.above.column, 1), [0; 2]],
+            Some((block, _)) => [lengths(self.above.column, scales), lengths(block.column, 1)],
+            None => [lengths(self.above.column, 1), [0; 2]],
         }
     }
 
-    /// Returns how many numbers are formed along all scales.
-    pub(super) fn room(&self, scales: usize) -> usize {
-        self.rooms(scales).as_flattened().iter().sum()
+    /// Returns the total workspace length, in numbers, for all scales.
+    pub(super) fn workspace_len(&self, scales: usize) -> usize {
+        self.buffer_lens(scales).as_flattened().iter().sum()
     }
 }
 
-/// Links of consecutive generations.
+/// Links of consecutive generations in one piece of a tree.
 pub(super) struct Layers<'p> {
-    /// The generations as they stand in the piece's own columns.
+    /// Shape of the piece, which determines the positions of its numbers in columns.
     pub(super) own: &'p ScaleShape,
-    /// Number of the first one in the tree, and how many are computed.
+    /// Index of the first generation in the tree, and number of generations that are computed.
     pub(super) first: usize,
     pub(super) count: usize,
-    /// The first link in the first generation, and how many links that has in the tree.
+    /// Index of the first link within its generation of the tree, and the number of links of that
+    /// generation.
     start: usize,
     stride: usize,
 }
 
 impl Layers<'_> {
-    /// Places of the links of a generation on the way up: of all neighbours.
+    /// Returns the positions of a generation's links for the upward pass, register by register.
     #[inline(always)]
-    pub(super) fn upwards(&self, tree: &ScaleShape, generation: usize, period: usize) -> Places {
-        self.places(tree, generation, period, self.own.at(generation).count)
+    pub(super) fn upwards(
+        &self,
+        tree: &ScaleShape,
+        generation: usize,
+        period: usize,
+    ) -> RegisterPositions {
+        self.register_positions(tree, generation, period, self.own.at(generation).count)
     }
 
-    /// Places on the way down: of neighbours whose parents are neighbours.
+    /// Returns the positions of a generation's links for the downward pass, in registers of
+    /// neighbours whose parents are neighbours too.
     #[inline(always)]
-    pub(super) fn downwards(&self, tree: &ScaleShape, generation: usize) -> Places {
+    pub(super) fn downwards(&self, tree: &ScaleShape, generation: usize) -> RegisterPositions {
         let above = self.own.at(generation.saturating_sub(1)).count;
-        self.places(tree, generation, 1, above)
+        self.register_positions(tree, generation, 1, above)
     }
 
     #[inline(always)]
-    fn places(&self, tree: &ScaleShape, generation: usize, period: usize, all: usize) -> Places {
+    fn register_positions(
+        &self,
+        tree: &ScaleShape,
+        generation: usize,
+        period: usize,
+        all: usize,
+    ) -> RegisterPositions {
         let (width, count) = (self.own.at(0).count, self.own.at(generation).count);
         let first = tree.at(self.first + generation).slot;
         let (length, apart) = match width == self.stride {
             true => (all, all),
             false => (width, self.stride),
         };
-        Places {
-            next: Place {
+        RegisterPositions {
+            next: RegisterPosition {
                 slot: first + self.start,
                 number: 0,
                 part: self.start % period,
@@ -103,39 +117,39 @@ impl Layers<'_> {
     }
 }
 
-/// A place among the links of a generation.
+/// Position of a register of neighbouring links of one generation.
 #[derive(Clone, Copy)]
-pub(super) struct Place {
-    /// In columns of the tree.
+pub(super) struct RegisterPosition {
+    /// Index of the first link in columns of the tree.
     pub(super) slot: usize,
-    /// In the generation of the piece.
+    /// Index of the first link in its generation of the piece.
     pub(super) number: usize,
-    /// Of the link's part among those of its generation in a scale.
+    /// Index of the first link's part among the parts of its generation in a scale.
     pub(super) part: usize,
-    /// Of the parent in its generation of the piece.
+    /// Index of the first link's parent in its generation of the piece.
     pub(super) parent: usize,
-    /// Number of neighbours from here on.
+    /// Number of neighbouring links from the first one on.
     pub(super) left: usize,
 }
 
-/// Places of registers of neighbours, strip by strip.
-pub(super) struct Places {
-    next: Place,
-    /// Number of strips that are left, length of each, and from one to the next in columns
-    /// of the tree.
+/// Iterator over the positions of registers of neighbouring links, strip by strip.
+pub(super) struct RegisterPositions {
+    next: RegisterPosition,
+    /// Number of remaining strips, length of each, and distance between them in columns of the
+    /// tree.
     strips: usize,
     length: usize,
     apart: usize,
-    /// Where the generation starts in columns of the tree.
+    /// Index of the generation's first link in columns of the tree.
     first: usize,
     period: usize,
-    /// Number of links of the generation above.
+    /// Number of links of the generation before.
     parents: usize,
 }
 
-impl Places {
+impl RegisterPositions {
     #[inline(always)]
-    pub(super) fn next(&mut self, lanes: usize) -> Option<Place> {
+    pub(super) fn next(&mut self, lanes: usize) -> Option<RegisterPosition> {
         if self.strips == 0 {
             return None;
         }
@@ -161,24 +175,24 @@ impl Places {
     }
 }
 
-/// Which ways scales are taken through a piece, one after the other.
+/// One visit of a piece of a tree: the passes through it that are made for all scales.
 #[derive(Clone, Copy)]
-struct Turn {
-    /// The piece is a block that starts with this link of its generation.
+struct BlockVisit {
+    /// If the piece is a block: the index of its first link in its generation.
     block: Option<usize>,
-    /// Up: bias forces.
+    /// True if the visit includes an upward pass that computes bias forces.
     eliminates: bool,
-    /// Down: the flow.
+    /// True if the visit includes a downward pass that computes the flow.
     flows: bool,
-    /// Up: slopes, and sums of products.
+    /// True if the visit includes an upward pass that computes slopes and sums of products.
     ends: bool,
 }
 
-impl Turn {
-    /// The turns of a tree of so many blocks, each of so many neighbours: of a large one up
-    /// through the blocks, up and down above them, then down through them and up above
-    /// them. There the way up is taken again: that takes less time than to write down what
-    /// it forms.
+impl BlockVisit {
+    /// Returns visit number `turn` of a tree with `blocks` blocks, whose first generations have
+    /// `width` neighbouring links. A large tree is visited upwards through the blocks, up and down
+    /// above them, then downwards through the blocks and upwards above them. The blocks repeat
+    /// their upward pass, which takes less time than storing its results.
     fn number(turn: usize, blocks: usize, width: usize) -> Self {
         let of = |block, eliminates, flows, ends| Self {
             block,
@@ -197,8 +211,8 @@ impl Turn {
 }
 
 impl<E: ScaleEquations, T: Scalar> ByScale<'_, E, T> {
-    /// Takes all scales through the tree.
-    // One loop: what it calls is inlined, and long.
+    /// Computes the quantities of all scales of the tree.
+    // One loop, because the functions that it calls are inlined and long.
     #[inline(always)]
     pub(super) fn all_scales<V: Simd<T>>(&mut self, pieces: &Pieces) {
         let (blocks, width) = match &pieces.block {
@@ -210,17 +224,17 @@ impl<E: ScaleEquations, T: Scalar> ByScale<'_, E, T> {
         };
         let turns = if blocks == 0 { 1 } else { 2 * blocks + 2 };
         for turn in 0..turns {
-            self.turn::<V>(pieces, Turn::number(turn, blocks, width));
+            self.visit::<V>(pieces, BlockVisit::number(turn, blocks, width));
         }
     }
 
     #[inline(always)]
-    fn turn<V: Simd<T>>(&mut self, pieces: &Pieces, turn: Turn) {
+    fn visit<V: Simd<T>>(&mut self, pieces: &Pieces, turn: BlockVisit) {
         let scales = self.shape.count();
         let working = core::mem::take(&mut self.working);
-        let mut room = &mut *working;
-        let [[sets, flows], [inner, block_flows]] =
-            (pieces.rooms(scales)).map(|rooms| rooms.map(|length| take(&mut room, length)));
+        let mut buffer = &mut *working;
+        let [[sets, flows], [inner, block_flows]] = (pieces.buffer_lens(scales))
+            .map(|buffer_lens| buffer_lens.map(|length| take(&mut buffer, length)));
         let (below, cut) = match &pieces.block {
             Some((block, cut)) => (block, *cut),
             None => (&pieces.above, scales),

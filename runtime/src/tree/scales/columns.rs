@@ -1,4 +1,4 @@
-//! Columns of numbers of all links, one behind the other.
+//! Columns of numbers: in each column, one number for every link.
 
 use super::shape::ScaleGeneration;
 use crate::scalar::Scalar;
@@ -6,48 +6,54 @@ use crate::simd::Simd;
 use crate::tree::LinkMotion;
 use crate::tree::columns::load;
 
-/// Sine and cosine of each link's angle, angular velocity.
+/// Index of the column with the sine of each link's angle; cosine and angular velocity are in the
+/// next two.
 pub(super) const MOTION: usize = 0;
-/// Strain of springs; torques of springs, friction and drag.
+/// Index of the column with the strain of the spring in each pivot; torques of springs, friction
+/// and drag are in the next three.
 pub(super) const STRAIN: usize = 3;
 pub(super) const SPRING: usize = 4;
 pub(super) const FRICTION: usize = 5;
 pub(super) const DRAG: usize = 6;
-/// Torques of the drive and from outside.
+/// Index of the column with the torques of the drive; external torques are in the next one.
 pub(super) const DRIVE: usize = 7;
 pub(super) const OUTSIDE: usize = 8;
-/// Velocities of centres of mass, then of the children's pivots.
+/// Index of the first column with velocities of centres of mass; velocities of the children's
+/// pivots follow.
 pub(super) const VELOCITY: usize = 9;
-/// Moments of the momentum of what links carry, then that momentum.
+/// Index of the first column with moments of the momentum that each link carries; this momentum
+/// follows.
 pub(super) const MOMENT: usize = 13;
 pub(super) const CARRIED: usize = 15;
-/// Gain, inverse joint inertia.
+/// Index of the first column with the gain (two numbers); the inverse joint inertia follows.
 pub(super) const GAIN: usize = 17;
-/// Deficit of articulated inertia.
+/// Index of the first column with the deficit of articulated inertia (three numbers).
 pub(super) const DEFICIT: usize = 20;
-/// 1 − cos θ.
+/// Index of the column with 1 − cos θ.
 pub(super) const RISE: usize = 23;
-/// Values that are split.
+/// Index of the column with values that are split into scales.
 pub(super) const SPLIT: usize = 24;
-/// Number of columns of a state.
+/// Number of columns that describe a state.
 pub(super) const ALL: usize = 25;
 
-/// Columns along the flow of one scale: the bias force, and in its place the change of
+/// Index of the column with the bias force along the flow of one scale; later with the change of
 /// momentum.
 pub(super) const BIAS: usize = 0;
-/// Offset.
+/// Column of the offset.
 pub(super) const OFFSET: usize = 2;
-/// Motion of pivots, handed down along the flow.
+/// Index of the first column with the motion of pivots along the flow, which the downward pass
+/// computes.
 pub(super) const PIVOT: usize = 3;
-/// Changes of velocities of centres of mass, then of the children's pivots.
+/// Index of the first column with changes of the velocities of centres of mass; those of the
+/// children's pivots follow.
 pub(super) const SHIFT: usize = 5;
-/// Number of columns along the flow of a scale.
+/// Number of columns for the flow of one scale.
 pub(super) const WORKING: usize = 9;
 
-/// The columns.
+/// View of a slice as columns with one number per link.
 pub(super) struct ScaleColumns<'a, T> {
     pub(super) numbers: &'a mut [T],
-    /// Length of each.
+    /// Length of each column.
     pub(super) length: usize,
 }
 
@@ -61,7 +67,7 @@ impl<T: Scalar> ScaleColumns<'_, T> {
         row
     }
 
-    /// Reads the numbers of so many links, and zeros behind them.
+    /// Reads numbers of `count` neighbouring links from `N` columns, padded with zeros.
     #[inline(always)]
     pub(super) fn read_some<V: Simd<T>, const N: usize>(
         &self,
@@ -89,7 +95,7 @@ impl<T: Scalar> ScaleColumns<'_, T> {
         }
     }
 
-    /// Sum over the children of links of one generation.
+    /// Returns, for links of one generation, the sums of numbers over their children.
     #[inline(always)]
     pub(super) fn of_children<V: Simd<T>, const N: usize>(
         &self,
@@ -108,15 +114,14 @@ impl<T: Scalar> ScaleColumns<'_, T> {
         sum
     }
 
-    /// The motion of links but for what joints do.
+    /// Returns the motion of the links at `place`, without their joint motion.
     #[inline(always)]
     pub(super) fn motion<V: Simd<T>>(&self, place: usize) -> LinkMotion<V> {
         let [sine, cosine, omega] = self.read(MOTION, place);
         LinkMotion::turning(sine, cosine, omega)
     }
 
-    /// Copies some numbers of two consecutive columns of others, from a place there to one
-    /// here.
+    /// Copies numbers of two consecutive columns from another view.
     pub(super) fn copy_two(
         &mut self,
         first: usize,

@@ -1,7 +1,7 @@
 //! Springs and friction between siblings, by scale.
 //!
-//! Springs κ between every two of k copies have the energy ½ κ k Σ (θ_c − mean)², which is that
-//! of the copies' differences alone: it is one of the scale in which they branch.
+//! Springs κ between all pairs of k copies have the energy ½ κ k Σ (θ_c − mean)². It depends only
+//! on the differences between the copies, so it belongs to the scale at which the copies branch.
 
 use super::{ActingOnScales, ScaleEquations, ScaleOutput, by_scale};
 use crate::scalar::{Scalar, at};
@@ -11,9 +11,9 @@ use crate::system::Workspace;
 use crate::tree::Tree;
 
 impl<T: Scalar> SpringDampers<T> {
-    /// Writes what a budget by scale takes of them at angles (rad) and angular velocities
-    /// (rad/s): the derivatives (N m) of the springs' energy by the angles, and the torques (N m)
-    /// of friction. NaN for slices of another length than there are links.
+    /// Writes quantities for an energy budget by scale: at the given angles (rad) and angular
+    /// velocities (rad/s), the derivatives (N m) of the springs' energy with respect to the angles,
+    /// and the torques (N m) of friction. NaN if a slice does not have one number per link.
     pub fn write_for_scales(&self, [theta, omega]: [&[T]; 2], between: [&mut [T]; 2]) {
         let [slopes, friction] = between;
         slopes.fill(T::from_f64(0.0));
@@ -22,9 +22,9 @@ impl<T: Scalar> SpringDampers<T> {
         self.add_friction(omega, friction);
     }
 
-    /// Adds the energies (J) of springs between siblings to scales, given the scale of the first
-    /// link of each run; of no scale they are left out. Adds nothing for another number of angles
-    /// than there are links.
+    /// Adds the energies (J) of springs between siblings to their scales. `scale_of` returns the
+    /// scale of a run of springs from its first link; runs without a scale are left out. Adds
+    /// nothing if the number of angles is not the number of links.
     pub fn add_energies_by_scale(
         &self,
         theta: &[T],
@@ -39,19 +39,19 @@ impl<T: Scalar> SpringDampers<T> {
     }
 }
 
-/// A generation of a tree by rule.
+/// Links of one generation of a rule-based tree, grouped as siblings.
 #[derive(Clone, Copy)]
 struct Siblings {
-    /// Number of its first link.
+    /// Index of its first link.
     first: usize,
-    /// Number of links above.
+    /// Number of links in the generation before.
     parents: usize,
-    /// Copies under each of them.
+    /// Number of copies under each link of the generation before.
     copies: usize,
 }
 
 impl<E: ScaleEquations, T: Scalar> Tree<E, T> {
-    /// The generations behind the root's.
+    /// Iterates over the generations below the root.
     fn siblings() -> impl Iterator<Item = Siblings> {
         let copies = E::COPIES.iter().skip(1);
         copies.scan((1, 1), |(first, parents), &copies| {
@@ -66,7 +66,7 @@ impl<E: ScaleEquations, T: Scalar> Tree<E, T> {
         })
     }
 
-    /// Computes all of a budget.
+    /// Computes the whole budget.
     pub(super) fn whole_budget(
         &self,
         workspace: &mut Workspace<T>,
@@ -109,18 +109,18 @@ impl<E: ScaleEquations, T: Scalar> Tree<E, T> {
             .add_energies_by_scale(theta, scale_of, budget);
     }
 
-    /// Adds to the energies of single sectors what springs between siblings have in each
-    /// difference d: ½ κ k d², for Helmert's differences are normalised.
+    /// Adds the energies of springs between siblings to the energies of single sectors: ½ κ k d²
+    /// for each difference d between k copies, because Helmert's differences are normalised.
     pub(super) fn add_energies_of_sectors(&self, theta: &[T], energies: &mut [T]) {
         if !E::COUPLED || theta.len() != self.skeleton.plan.links() {
             return;
         }
         let zero = T::from_f64(0.0);
-        // The means' own comes first.
+        // The first energy is that of the means.
         let mut sectors = energies.iter_mut().skip(1);
         for own in Self::siblings() {
-            // All springs between the first two copies under the first parent: those between
-            // others are the same.
+            // The springs between the first two copies under the first parent; those between all
+            // other copies are identical.
             let pair = [own.first, own.first + own.parents];
             let springs = self.spring_dampers.first_of_runs();
             let stiffness = springs

@@ -1,4 +1,4 @@
-//! Energies of scales, by generation.
+//! Energies of all scales, computed generation by generation.
 
 use super::{ByScale, ScaleEquations, ScaleOutput, field};
 use crate::scalar::Scalar;
@@ -32,7 +32,8 @@ impl<E: ScaleEquations, T: Scalar> ByScale<'_, E, T> {
         }
     }
 
-    /// Energies of links whose parts in a scale start there.
+    /// Returns the energies, in one scale, of a register of links; `start` is the index of their
+    /// parts in that scale.
     #[inline(always)]
     fn energy<V: Simd<T>>(
         &self,
@@ -46,7 +47,7 @@ impl<E: ScaleEquations, T: Scalar> ByScale<'_, E, T> {
         self.energy_of_parts(scale, generation, parts)
     }
 
-    /// Energy of given parts.
+    /// Returns the energies of a register of links, computed from their parts in one scale.
     #[inline(always)]
     pub(super) fn energy_of_parts<V: Simd<T>>(
         &self,
@@ -62,7 +63,7 @@ impl<E: ScaleEquations, T: Scalar> ByScale<'_, E, T> {
     }
 }
 
-/// Sum of all lanes.
+/// Returns the sum of the numbers in all lanes.
 #[inline(always)]
 pub(super) fn in_all_lanes<T: Scalar, V: Simd<T>>(value: V) -> T {
     let mut sum = value.first();

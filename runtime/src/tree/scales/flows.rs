@@ -1,4 +1,5 @@
-//! The flow of one scale's energy, M u = ∂E/∂ω, and the slope z that it meets.
+//! Computation of the flow u of a scale's energy E, which is defined by M u = ∂E/∂ω, and of the
+//! derivative z of the energy along the flow.
 
 use super::blocks::Layers;
 use super::columns::{BIAS, GAIN, OFFSET, PIVOT, SHIFT, ScaleColumns};
@@ -7,7 +8,7 @@ use crate::scalar::Scalar;
 use crate::simd::Simd;
 
 impl<E: ScaleEquations, T: Scalar> ByScale<'_, E, T> {
-    /// From the leaves to the root: bias forces and offsets.
+    /// Makes an upward pass that computes bias forces and offsets.
     #[inline(always)]
     pub(super) fn eliminate<V: Simd<T>>(
         &self,
@@ -34,9 +35,9 @@ impl<E: ScaleEquations, T: Scalar> ByScale<'_, E, T> {
         }
     }
 
-    /// From the root to the leaves: u, and what it changes in velocities. In the places
-    /// of a block's first generation stands what is handed down from above; nothing moves
-    /// the root's pivot.
+    /// Makes a downward pass that computes the flow u and the changes of velocities along it. The
+    /// first generation of a block holds the numbers passed from above; the root's pivot does not
+    /// move.
     #[inline(always)]
     pub(super) fn flow<V: Simd<T>>(
         &self,
@@ -70,7 +71,8 @@ impl<E: ScaleEquations, T: Scalar> ByScale<'_, E, T> {
         }
     }
 
-    /// From the leaves to the root: slopes, with the momenta that the flow changes.
+    /// Makes an upward pass that computes the derivatives z of the energy, including the changes of
+    /// momenta along the flow.
     #[inline(always)]
     pub(super) fn slopes<V: Simd<T>>(
         &self,

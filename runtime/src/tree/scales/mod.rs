@@ -1,8 +1,9 @@
 //! Energies by scale and the transfers between scales (`docs/physics.md`, section 18).
 //!
-//! Parts of all quantities in all scales come from fast means; the flow of a scale's
-//! energy is one solve with the mass matrix, whose factors all scales share. All of it
-//! is sums along the tree, for registers of neighbours: O(n) for each scale.
+//! The parts of all quantities in all scales are computed from means over copies, generation by
+//! generation. The flow of a scale's energy takes one solution with the mass matrix, whose factors
+//! serve all scales. All computations are sums along the tree, in registers of neighbouring links,
+//! and take O(n) operations per scale.
 
 mod blocks;
 mod columns;
@@ -35,7 +36,7 @@ use columns::{ALL, ScaleColumns};
 pub use shape::MOST_GENERATIONS;
 use shape::ScaleShape;
 
-/// Quantities whose parts are formed.
+/// Indices of the quantities that are split into scales.
 mod field {
     pub(super) const VELOCITY: usize = 0;
     pub(super) const OMEGA: usize = 2;
@@ -48,8 +49,7 @@ mod field {
 }
 
 impl<E: ScaleEquations, T: Scalar> Tree<E, T> {
-    /// Computes the energies, as
-    /// [`Scales::energies_by_scale`](crate::Scales::energies_by_scale).
+    /// Computes the energies, as [`Scales::energies_by_scale`](crate::Scales::energies_by_scale).
     pub fn energies_by_scale(
         &self,
         workspace: &mut Workspace<T>,
@@ -78,9 +78,9 @@ impl<E: ScaleEquations, T: Scalar> Tree<E, T> {
         self.add_energies_of_sectors(theta, energies);
     }
 
-    /// Computes all of the budget, as
-    /// [`Scales::budget_by_scale`](crate::Scales::budget_by_scale): of angles and angular
-    /// velocities (the third slice is empty), with the acceleration of the root's pivot
+    /// Computes the whole energy budget, as
+    /// [`Scales::budget_by_scale`](crate::Scales::budget_by_scale). `given` contains angles,
+    /// angular velocities and an empty slice; `drive` contains the acceleration of the root's pivot
     /// and the torque on the root.
     pub fn budget_by_scale(
         &self,
@@ -92,7 +92,8 @@ impl<E: ScaleEquations, T: Scalar> Tree<E, T> {
         self.whole_budget(workspace, drive, given, budget);
     }
 
-    /// Computes all of the budget under torques from outside, the third slice.
+    /// Computes the whole energy budget under external torques, which are the third slice of
+    /// `given`.
     pub fn budget_by_scale_under(
         &self,
         workspace: &mut Workspace<T>,
@@ -116,8 +117,8 @@ impl<E: ScaleEquations, T: Scalar> Tree<E, T> {
     }
 }
 
-/// A tree by rule that is known when a program runs: what [`Tree`] is for one whose copies
-/// stand in its equations.
+/// Rule-based tree that is built at run time; the counterpart of a [`Tree`] whose numbers of copies
+/// are constants of its equations.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ScaleTree<E, T> {
     copies: Vec<usize>,
@@ -126,8 +127,8 @@ pub struct ScaleTree<E, T> {
 }
 
 impl<E: ScaleEquations, T: Scalar> ScaleTree<E, T> {
-    /// The tree of so many copies of each generation under each link of the one before, 1 for
-    /// the root, with a row of constants for each generation, one after the other.
+    /// Creates the tree. `copies` has the number of copies of each generation under each link of
+    /// the generation before (1 for the root); `rows` has one row of constants per generation.
     #[must_use]
     pub fn new(copies: Vec<usize>, rows: Vec<T>) -> Self {
         Self {
@@ -137,21 +138,22 @@ impl<E: ScaleEquations, T: Scalar> ScaleTree<E, T> {
         }
     }
 
-    /// Copies of each generation under each link of the one before, 1 for the root.
+    /// Returns the number of copies of each generation under each link of the generation before; 1
+    /// for the root.
     #[must_use]
     pub fn copies(&self) -> &[usize] {
         &self.copies
     }
 
-    /// Returns the same tree on other scalars.
+    /// Returns the same tree with constants of another scalar type.
     #[must_use]
     pub fn cast<S: Scalar>(&self, convert: impl Fn(T) -> S) -> ScaleTree<E, S> {
         let constants = self.constants.iter().copied().map(convert);
         ScaleTree::new(self.copies.clone(), constants.collect())
     }
 
-    /// Computes the energies alone, of angles and angular velocities; NaN of more than
-    /// [`MOST_GENERATIONS`].
+    /// Computes only the energies (J) by scale, from angles and angular velocities; NaN for more
+    /// than [`MOST_GENERATIONS`] generations.
     pub fn energies_by_scale(
         &self,
         workspace: &mut Workspace<T>,
@@ -172,13 +174,12 @@ impl<E: ScaleEquations, T: Scalar> ScaleTree<E, T> {
         }
     }
 
-    /// Computes all of the budget: of angles and angular velocities and, unless the third
-    /// slice is empty, torques from outside, link by link as those of
-    /// [`Scales`](crate::Scales); with the acceleration of the root's pivot and the torque on
-    /// the root. Of friction and springs between siblings it takes the slopes (N m) of the
-    /// springs' energies by the angles and the torques (N m) of the friction, each link by link,
-    /// or empty; the springs' energies are left to the caller. NaN of more than
-    /// [`MOST_GENERATIONS`].
+    /// Computes the whole energy budget. `given` holds angles, angular velocities and external
+    /// torques (or an empty slice), link by link in the order of [`Scales`](crate::Scales); `drive`
+    /// holds the acceleration of the root's pivot and the torque on the root. `between` holds, link
+    /// by link or empty, the derivatives (N m) of the energy of springs between siblings with
+    /// respect to the angles and the torques (N m) of friction between siblings; the energies of
+    /// these springs are left to the caller. NaN for more than [`MOST_GENERATIONS`] generations.
     pub fn budget_by_scale(
         &self,
         workspace: &mut Workspace<T>,
@@ -198,22 +199,24 @@ impl<E: ScaleEquations, T: Scalar> ScaleTree<E, T> {
     }
 }
 
-/// What acts on a tree beside its joints and torques from outside.
+/// Actions on a tree in addition to its joints and external torques: the drive, and forces between
+/// siblings.
 struct ActingOnScales<'a, T> {
     drive: Option<[T; 3]>,
-    /// Slopes of the energies of springs between siblings, and torques of friction there.
+    /// Derivatives of the energy of springs between siblings by the angles, and torques of friction
+    /// between siblings.
     between: [&'a [T]; 2],
 }
 
 impl<T> ActingOnScales<'_, T> {
-    /// The drive alone.
+    /// Returns the actions of a drive alone.
     fn of(drive: Option<[T; 3]>) -> Self {
         let between = [[].as_slice(); 2];
         Self { drive, between }
     }
 }
 
-/// Copies of the generations, and a row of constants for each.
+/// Rule-based tree: the numbers of copies of its generations, with one row of constants for each.
 struct RuleTree<'a, E, T> {
     copies: &'a [usize],
     constants: &'a [T],
@@ -246,8 +249,8 @@ fn by_scale<E: ScaleEquations, T: Scalar>(
     };
     let (columns, parts) = (ALL * shape.column, field::ALL * shape.parts);
     let working = match wanted {
-        ScaleOutput::Budget(_) => pieces.room(shape.count()),
-        _ => 0,
+        ScaleOutput::Budget(_) => pieces.workspace_len(shape.count()),
+        ScaleOutput::Energies(_) | ScaleOutput::Sectors(_) => 0,
     };
     let mut numbers = workspace.numbers(columns + parts + working);
     let own = take(&mut numbers, columns);
@@ -272,7 +275,7 @@ fn by_scale<E: ScaleEquations, T: Scalar>(
     });
 }
 
-/// Quantities to be computed, and where they go.
+/// Destination of the computed quantities.
 enum ScaleOutput<'a, T> {
     Energies(&'a mut ScaleBudget<T>),
     Sectors(&'a mut [T]),
@@ -280,7 +283,7 @@ enum ScaleOutput<'a, T> {
 }
 
 impl<T: Scalar> ScaleOutput<'_, T> {
-    /// Writes one number everywhere.
+    /// Sets all computed quantities to `value`.
     fn start(&mut self, scales: usize, value: T) {
         match self {
             Self::Energies(budget) | Self::Budget(budget) => budget.fill(scales, value),
@@ -289,7 +292,7 @@ impl<T: Scalar> ScaleOutput<'_, T> {
     }
 }
 
-/// One computation.
+/// State of one computation.
 struct ByScale<'a, E, T: 'static> {
     /// Constants of the generations.
     constants: &'a [T],
@@ -297,7 +300,7 @@ struct ByScale<'a, E, T: 'static> {
     columns: ScaleColumns<'a, T>,
     /// Columns of parts.
     parts: &'a mut [T],
-    /// Room for what is formed along the scales.
+    /// Workspace for the flows of all scales.
     working: &'a mut [T],
     pieces: &'a Pieces,
     drive: Option<[T; 3]>,
@@ -324,7 +327,7 @@ impl<E: ScaleEquations, T: Scalar> Kernel<T> for ByScale<'_, E, T> {
         self.split_all::<V>(all);
         match self.wanted {
             ScaleOutput::Sectors(_) => self.sectors(),
-            _ => self.energies::<V>(),
+            ScaleOutput::Energies(_) | ScaleOutput::Budget(_) => self.energies::<V>(),
         }
         if all {
             self.factors::<V>();
@@ -334,7 +337,7 @@ impl<E: ScaleEquations, T: Scalar> Kernel<T> for ByScale<'_, E, T> {
 }
 
 impl<E: ScaleEquations, T: Scalar> ByScale<'_, E, T> {
-    /// The constants of a generation.
+    /// Returns the constants of a generation.
     #[inline(always)]
     fn constants<V: Simd<T>>(&self, generation: usize) -> E::Constants<V> {
         let mut row = <E::Constants<V> as Row<V>>::filled(V::from_f64(0.0));
@@ -346,8 +349,9 @@ impl<E: ScaleEquations, T: Scalar> ByScale<'_, E, T> {
         row
     }
 
-    /// Parts of consecutive fields of links of a generation, from the place behind a
-    /// period on: zero in scales that the generation has no part in.
+    /// Returns the parts, in one scale, of consecutive quantities for links of a generation;
+    /// `place` is an index within the period. The parts are zero in scales in which the generation
+    /// has none.
     #[inline(always)]
     fn part<V: Simd<T>, const N: usize>(
         &self,
@@ -364,8 +368,8 @@ impl<E: ScaleEquations, T: Scalar> ByScale<'_, E, T> {
         row
     }
 
-    /// Where parts of a generation in a scale start, and their period; none where there
-    /// are none.
+    /// Returns the index at which a generation's parts in a scale start (`None` if it has none),
+    /// and the number of links after which they repeat.
     #[inline(always)]
     fn part_start(&self, scale: usize, generation: usize) -> (Option<usize>, usize) {
         match scale <= generation {

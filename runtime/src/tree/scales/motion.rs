@@ -1,4 +1,5 @@
-//! All that is known before any scale: motion, torques, velocities, momenta, factors.
+//! Quantities that do not depend on the scale: motion, torques, velocities, momenta, and factors of
+//! the mass matrix.
 
 use super::columns::{
     CARRIED, DEFICIT, DRIVE, GAIN, MOMENT, MOTION, OUTSIDE, RISE, SPLIT, SPRING, STRAIN, VELOCITY,
@@ -12,7 +13,7 @@ use crate::tree::LinkMotion;
 use crate::tree::columns::load_front;
 
 impl<E: ScaleEquations, T: Scalar> ByScale<'_, E, T> {
-    /// Sines and cosines, and what joints do.
+    /// Computes sines and cosines of all angles, and the torques in all joints.
     #[inline(always)]
     pub(super) fn motions<V: Simd<T>>(&mut self) {
         let one = V::from_f64(1.0);
@@ -39,7 +40,7 @@ impl<E: ScaleEquations, T: Scalar> ByScale<'_, E, T> {
         }
     }
 
-    /// Torques of each joint by itself.
+    /// Computes the torques in the joints of one generation.
     #[inline(always)]
     fn joints<V: Simd<T>>(&mut self, generation: usize) {
         let constants = self.constants::<V>(generation);
@@ -63,8 +64,8 @@ impl<E: ScaleEquations, T: Scalar> ByScale<'_, E, T> {
         }
     }
 
-    /// Torques on each link, of its own joint and of its children's: those of springs
-    /// as slopes of the energy, the others as forces.
+    /// Computes the torques on each link of a generation, from its own joint and the joints of its
+    /// children. Torques of springs are stored as derivatives of the energy, all others as torques.
     #[inline(always)]
     fn joint_torques<V: Simd<T>>(&mut self, generation: usize) {
         let (own, below) = (self.shape.at(generation), self.shape.at(generation + 1));
@@ -85,14 +86,15 @@ impl<E: ScaleEquations, T: Scalar> ByScale<'_, E, T> {
         }
     }
 
-    /// A generation and that above; above the root stands itself.
+    /// Returns a generation and the generation before it; for the root, the root's generation
+    /// twice.
     #[inline(always)]
     pub(super) fn pair(&self, generation: usize) -> (ScaleGeneration, ScaleGeneration) {
         let own = self.shape.at(generation);
         (own, self.shape.at(generation.saturating_sub(1)))
     }
 
-    /// Torques of the drive, and those from outside.
+    /// Computes the torques of the drive, and stores the external torques.
     #[inline(always)]
     pub(super) fn torques_of_drive<V: Simd<T>>(&mut self) {
         let [x, y, torque] = self.drive.unwrap_or([T::from_f64(0.0); 3]);
@@ -102,7 +104,7 @@ impl<E: ScaleEquations, T: Scalar> ByScale<'_, E, T> {
             let mut place = 0;
             while place < own.count {
                 let slot = own.slot + place;
-                if E::MOVED {
+                if E::DRIVEN {
                     let link = self.columns.motion::<V>(slot);
                     let given = [V::splat(x), V::splat(y)];
                     let torque = E::scale_inertial(&constants, link, given);
@@ -116,14 +118,14 @@ impl<E: ScaleEquations, T: Scalar> ByScale<'_, E, T> {
             }
         }
         let [moved]: [T; 1] = self.columns.read(DRIVE, 0);
-        let on_root = match E::MOVED {
+        let on_root = match E::DRIVEN {
             true => moved + torque,
             false => torque,
         };
         self.columns.write(DRIVE, 0, [on_root]);
     }
 
-    /// Velocities of centres of mass, from the root to the leaves.
+    /// Computes the velocities of all centres of mass, from the root to the leaves.
     #[inline(always)]
     pub(super) fn velocities<V: Simd<T>>(&mut self) {
         for generation in 0..self.shape.count() {
@@ -146,7 +148,7 @@ impl<E: ScaleEquations, T: Scalar> ByScale<'_, E, T> {
         }
     }
 
-    /// Moments of momentum, from the leaves to the root.
+    /// Computes the moments of momentum of all links, from the leaves to the root.
     #[inline(always)]
     pub(super) fn moments<V: Simd<T>>(&mut self) {
         for generation in (0..self.shape.count()).rev() {
@@ -166,7 +168,7 @@ impl<E: ScaleEquations, T: Scalar> ByScale<'_, E, T> {
         }
     }
 
-    /// Factors of the mass matrix, from the leaves to the root.
+    /// Computes the factors of the mass matrix, from the leaves to the root.
     #[inline(always)]
     pub(super) fn factors<V: Simd<T>>(&mut self) {
         for generation in (0..self.shape.count()).rev() {
@@ -186,7 +188,8 @@ impl<E: ScaleEquations, T: Scalar> ByScale<'_, E, T> {
         }
     }
 
-    /// Parts of all quantities that are needed, for energies or for all.
+    /// Splits all required quantities into scales; if `slopes` is true for the whole budget,
+    /// otherwise for energies only.
     #[inline(always)]
     pub(super) fn split_all<V: Simd<T>>(&mut self, slopes: bool) {
         let fields = [

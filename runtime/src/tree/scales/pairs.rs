@@ -1,4 +1,4 @@
-//! Transfers between scales and powers on them: sums of products over all links.
+//! Transfers between scales and powers on them, computed as sums of products over all links.
 
 use super::blocks::Layers;
 use super::columns::{DRAG, DRIVE, FRICTION, OUTSIDE, ScaleColumns};
@@ -8,12 +8,14 @@ use crate::scalar::Scalar;
 use crate::sectors::PowerKind;
 use crate::simd::Simd;
 
-/// Scales that are paired with one at a time: their sums stay in registers.
+/// Number of scales whose transfers with one scale are computed at a time; their sums stay in
+/// registers.
 const TOGETHER: usize = 4;
 
 impl<E: ScaleEquations, T: Scalar> ByScale<'_, E, T> {
-    /// Adds what links of a piece have in {E_s, E_r} = Σ z_s u_r − u_s z_r of all pairs,
-    /// and in the powers Σ u_s Q.
+    /// Adds the contributions of the links of a piece to {E_s, E_r} = Σ z_s u_r − u_s z_r for all
+    /// pairs of scales, and to the powers Σ u_s Q. u are the flows, z the derivatives of the
+    /// energies, and Q the torques.
     #[inline(always)]
     pub(super) fn products<V: Simd<T>>(&mut self, piece: &Layers<'_>, flows: &ScaleColumns<'_, T>) {
         for to in 0..self.shape.count() {
@@ -30,7 +32,7 @@ impl<E: ScaleEquations, T: Scalar> ByScale<'_, E, T> {
         }
     }
 
-    /// Transfers from `N` scales to one.
+    /// Computes the energy transfers from `N` scales to one.
     #[inline(always)]
     fn transfers<V: Simd<T>, const N: usize>(
         &mut self,
@@ -63,7 +65,7 @@ impl<E: ScaleEquations, T: Scalar> ByScale<'_, E, T> {
         }
     }
 
-    /// Powers of all that acts on a scale.
+    /// Computes the powers of all forces on one scale.
     #[inline(always)]
     fn powers<V: Simd<T>>(
         &mut self,
@@ -74,7 +76,7 @@ impl<E: ScaleEquations, T: Scalar> ByScale<'_, E, T> {
         let columns = [
             (PowerKind::Friction, FRICTION, E::FRICTION),
             (PowerKind::Drag, DRAG, E::DRAG),
-            (PowerKind::Drive, DRIVE, self.drive.is_some() && E::MOVED),
+            (PowerKind::Drive, DRIVE, self.drive.is_some() && E::DRIVEN),
             (PowerKind::Outside, OUTSIDE, !self.torques.is_empty()),
         ];
         for (kind, column, acts) in columns {
@@ -95,7 +97,7 @@ impl<E: ScaleEquations, T: Scalar> ByScale<'_, E, T> {
             self.add_power(kind, scale, in_all_lanes::<T, V>(sum));
         }
         // A torque on the root alone.
-        if let (Some([.., torque]), false, 0) = (self.drive, E::MOVED, piece.first) {
+        if let (Some([.., torque]), false, 0) = (self.drive, E::DRIVEN, piece.first) {
             let [flow]: [T; 1] = flows.read(2 * scale, 0);
             self.add_power(PowerKind::Drive, scale, flow * torque);
         }

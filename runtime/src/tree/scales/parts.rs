@@ -1,16 +1,16 @@
-//! Parts of a quantity in all scales: fast means and what copies differ from them, from
-//! the youngest generation up.
+//! Parts of a quantity in all scales: means of copies, and differences of the copies from their
+//! mean, computed from the youngest generation upwards.
 
 use super::shape::ScaleShape;
 use crate::scalar::Scalar;
 use crate::simd::{Simd, WIDEST};
 use crate::tree::columns::load_front;
 
-/// Splits the values of one generation into their parts in all scales. The values
-/// are overwritten: by the means.
+/// Splits the values of one generation into their parts in all scales. The values are overwritten
+/// with the means.
 ///
-/// Of k copies x_c the mean is x_1 + Σ (x_c − x_1)/k, and the parts are what is left: of
-/// equal copies exactly zero.
+/// The mean of k copies x_c is computed as x_1 + Σ (x_c − x_1)/k, and the parts are the differences
+/// from it. For equal copies they are exactly zero.
 #[inline(always)]
 pub(super) fn split<T: Scalar, V: Simd<T>>(
     shape: &ScaleShape,
@@ -33,7 +33,7 @@ pub(super) fn split<T: Scalar, V: Simd<T>>(
             }
             _ => branch::<T, V>(shape.at(scale).copies, count, values, own),
         }
-        // Over and over, from the front on.
+        // The values repeat from the start.
         for place in count..period + WIDEST {
             let value = own.get(place - count).copied();
             if let (Some(place), Some(value)) = (own.get_mut(place), value) {
@@ -43,7 +43,8 @@ pub(super) fn split<T: Scalar, V: Simd<T>>(
     }
 }
 
-/// One branching of all links of a generation.
+/// Splits the values of the copies into their mean and the differences from it, for all branchings
+/// in a generation.
 #[inline(always)]
 fn branch<T: Scalar, V: Simd<T>>(copies: usize, count: usize, values: &mut [T], parts: &mut [T]) {
     let parents = count / copies.max(1);
@@ -58,7 +59,8 @@ fn branch<T: Scalar, V: Simd<T>>(copies: usize, count: usize, values: &mut [T], 
     }
 }
 
-/// The means of a register of links, and what copies differ from them.
+/// Returns the means of the copies for a register of links, and writes the differences of the
+/// copies from their mean.
 #[inline(always)]
 fn means<T: Scalar, V: Simd<T>>(
     copies: usize,

@@ -1,4 +1,4 @@
-//! Energies of single sectors: parts of copies, by Helmert's differences.
+//! Energies of single sectors, computed from parts of copies with Helmert's differences.
 
 use super::{ByScale, ScaleEquations, ScaleOutput, field};
 use crate::scalar::Scalar;
@@ -36,12 +36,13 @@ impl<E: ScaleEquations, T: Scalar> ByScale<'_, E, T> {
         }
     }
 
-    /// The energy of one difference of the copies under a parent, or of the means.
+    /// Returns the energy of the sector of one difference between the copies under a parent, or of
+    /// the means.
     fn sector(&self, scale: usize, parent: usize, difference: usize) -> T {
         let zero = T::from_f64(0.0);
         let (own, mut energy) = (self.shape.at(scale), zero);
         let parents = own.count / own.copies.max(1);
-        // Weights 1 of the first copies, −r of the next one.
+        // The weights are 1 for the first copies and −r for the next one.
         let next = T::from_f64(difference as f64);
         let norm = (next * (next + T::from_f64(1.0))).sqrt();
         for generation in scale..self.shape.count() {

@@ -1,25 +1,25 @@
-//! Where the numbers of a tree by rule stand while its scales are computed.
+//! Positions in memory of the numbers of a rule-based tree while its scales are computed.
 //!
-//! In a column each generation has room for a register behind its last link: a register
-//! may reach beyond a generation, and what it writes there is never read as a link's.
+//! In a column each generation is padded by one register after its last link: a register may reach
+//! past a generation, and the values written there are never read as those of a link.
 
 use crate::simd::WIDEST;
 
-/// Most generations of a tree whose energies are known by scale: budgets of deeper ones
-/// are NaN. Branches of two are then more links than an index counts.
+/// Largest number of generations for which energies by scale are computed; budgets of deeper trees
+/// are NaN. With two copies per generation, deeper trees have more links than an index can count.
 pub const MOST_GENERATIONS: usize = 34;
 
-/// A generation.
+/// Sizes and positions of one generation.
 #[derive(Clone, Copy, Default)]
 pub(super) struct ScaleGeneration {
-    /// Copies under each link of the generation before.
+    /// Number of copies under each link of the generation before.
     pub(super) copies: usize,
     /// Number of links.
     pub(super) count: usize,
-    /// Place of the first link in the tree, and in a column.
+    /// Index of the generation's first link in the tree, and its index in a column.
     pub(super) whole: usize,
     pub(super) slot: usize,
-    /// Place of the first number in a column of parts.
+    /// Index of the generation's first number in a column of parts.
     part: usize,
 }
 
@@ -30,18 +30,19 @@ pub(super) struct ScaleShape {
     count: usize,
     /// Number of links.
     pub(super) links: usize,
-    /// Length of a column of all links, and of one of parts.
+    /// Length of a column with one number per link, and of a column of parts.
     pub(super) column: usize,
     pub(super) parts: usize,
-    /// Number of generations that do not fill the widest register, and number of links of
-    /// the first one that does.
+    /// Number of generations that do not fill the widest register, and the number of links of the
+    /// first generation that does.
     narrow: usize,
     filling: usize,
 }
 
 impl ScaleShape {
-    /// Of so many neighbours with all below them. The neighbours are the first of the
-    /// copies, 1 for a whole tree. None where there are too many generations.
+    /// Computes the sizes for some neighbouring links with everything below them. The first entry
+    /// of `copies` is the number of these neighbours, 1 for a whole tree. Returns `None` if there
+    /// are too many generations.
     pub(super) fn new(copies: impl ExactSizeIterator<Item = usize>) -> Option<Self> {
         let mut shape = Self {
             generations: [ScaleGeneration::default(); MOST_GENERATIONS],
@@ -80,7 +81,7 @@ impl ScaleShape {
         Some(shape)
     }
 
-    /// Number of generations, and of scales.
+    /// Returns the number of generations, which is also the number of scales.
     pub(super) fn count(&self) -> usize {
         self.count
     }
@@ -93,24 +94,24 @@ impl ScaleShape {
         }
     }
 
-    /// Number of different values that parts in a scale have in one generation. Values
-    /// repeat along it, since copies of a link have the number of the link modulo the
-    /// number of links of their generation.
+    /// Returns how many different values the parts in a scale have in its youngest generation. The
+    /// values repeat along the generation, because copies of a link have the same index modulo the
+    /// number of links of its generation.
     pub(super) fn values(&self, scale: usize) -> usize {
         self.at(scale).count
     }
 
-    /// Links behind which parts in a scale are the same again: as many as fill a
-    /// register, or all.
+    /// Returns the number of links after which the parts in a scale repeat within a generation; it
+    /// is at least the length of a register if the generation has that many links.
     #[inline(always)]
     pub(super) fn period(&self, scale: usize, generation: usize) -> usize {
         let filling = self.at(generation).count.min(self.filling);
         self.values(scale).max(filling)
     }
 
-    /// Place of the parts of a generation in a scale in a column of parts: behind those in
-    /// the scales before, of which each has a register more than its period, which begins
-    /// anew there.
+    /// Returns the index at which the parts of a generation in a scale are stored, within a column
+    /// of parts. They follow the parts in the previous scales. The parts in a scale take its period
+    /// plus one register, in which the period is repeated.
     #[inline(always)]
     pub(super) fn part(&self, scale: usize, generation: usize) -> usize {
         let (own, narrow) = (self.at(generation), scale.min(self.narrow));
@@ -119,9 +120,10 @@ impl ScaleShape {
         own.part + periods + scale * WIDEST
     }
 
-    /// The generation where large trees are cut, and how many neighbours of it make one
-    /// block with all below them: one that fits into the second cache, whose
-    /// neighbours' parents are neighbours. Small trees are not cut.
+    /// Returns the generation at which a large tree is divided, and how many neighbouring links of
+    /// that generation form a block, together with everything below them. A block fits into the
+    /// second-level cache, and the parents of its neighbours are neighbours. Small trees are not
+    /// divided.
     pub(super) fn cut(&self) -> Option<(usize, usize)> {
         if self.links <= WHOLE {
             return None;
@@ -138,18 +140,19 @@ impl ScaleShape {
     }
 }
 
-/// Trees of more links are cut into blocks of about so many.
+/// Number of links above which a tree is divided into blocks; also the approximate size of a block.
 const WHOLE: usize = 4096;
 const BLOCK: usize = 1536;
 
-/// Neighbours of a block's first generation: they stand side by side in the tree.
+/// Number of neighbours in a block's first generation; they are contiguous in the tree.
 const WIDE: usize = 64;
 
 #[cfg(test)]
 mod tests {
     use super::{ScaleShape, WIDEST};
 
-    /// Parts follow each other without a gap, and have their place.
+    /// Checks that parts of different scales are contiguous in memory, and that each has the right
+    /// length.
     #[test]
     fn parts_stand_one_behind_the_other() {
         for copies in [

@@ -1,10 +1,10 @@
-//! The equations, taken through a tree of any shape, with constants of each link: a
-//! strip is all links of one height.
+//! Passes of the equations through a tree of any shape, in which each link has its own constants
+//! and each strip consists of links of one height.
 
 #![allow(unsafe_code)]
 
 use super::passes::{Passes, add};
-use super::strip::VectorPlaces;
+use super::strip::VectorIndices;
 use super::view::LinkCells;
 use crate::scalar::Scalar;
 use crate::simd::Simd;
@@ -13,16 +13,16 @@ use crate::tree::equations::{LinkEquations, Row};
 use crate::tree::output::Output;
 use crate::tree::strips::{Attachment, Strip};
 
-/// Where the numbers of links and their constants stand. A copy: compilers read what is
-/// behind a reference again after everything that is written.
+/// Memory layout of the links' numbers and of their constants. It is passed by value, because a
+/// compiler reloads values behind a reference after every write.
 #[derive(Clone, Copy)]
 struct OwnCells<N, T> {
     links: LinkCells<T>,
     constants: Cells<N>,
 }
 
-// Of all this: as for all passes; the places of links are those of the
-// strips and attachments, behind the last of which a register of any width is there.
+// Safety of all functions here: as for all passes. The positions of links are those of strips and
+// attachments, after the last of which a register of any width fits.
 impl<E, N, T, V> Passes<'_, E, N, T, V>
 where
     E: LinkEquations,
@@ -30,7 +30,7 @@ where
     T: Scalar + Simd<N>,
     V: Simd<T>,
 {
-    /// In single numbers there is nothing but links one by one.
+    /// True if registers have a single lane, so that all links are computed one by one.
     const SINGLE: bool = V::LANES == 1;
 
     #[inline(always)]
@@ -41,7 +41,7 @@ where
         }
     }
 
-    /// From the lowest strip to the root.
+    /// Makes the upward pass, from the lowest strip to the root.
     #[inline(always)]
     pub(super) fn heights_up(&self) {
         let cells = &self.cells();
@@ -60,7 +60,7 @@ where
         }
     }
 
-    /// From the root to the lowest strip.
+    /// Makes the downward pass, from the root to the lowest strip.
     #[inline(always)]
     pub(super) fn heights_down(&self, out: &mut impl Output<T>) {
         let cells = &self.cells();
@@ -72,8 +72,8 @@ where
             } else if strip.length < V::LANES {
                 narrow.one_by_one_down(cells, strip, out);
             } else {
-                // Not at once: in registers that start elsewhere than these, what was just
-                // written is read late.
+                // Not directly after writing: a register that starts at another address than the
+                // written one is read slowly.
                 self.hand_down(cells, strip);
                 self.links_down(cells, strip, out);
             }
@@ -81,11 +81,12 @@ where
         }
     }
 
-    /// A strip of too few links for a register, up, one by one: each link's response goes
-    /// to the parent at once, and what is written narrow is read narrow soon.
+    /// Makes the upward pass through a strip with too few links for a register, one link after the
+    /// other. Each link's response is added to the parent at once, because numbers that were
+    /// written one by one are read fastest one by one.
     #[inline(always)]
     fn one_by_one_up(&self, cells: &OwnCells<N, T>, strip: &Strip) {
-        // SAFETY: places of strips and attachments are there, as the view has seen.
+        // SAFETY: the view has checked the positions of strips and attachments.
         unsafe {
             if strip.first.own == 0 {
                 let _ = self.response(cells, strip, 0);
@@ -102,10 +103,10 @@ where
         }
     }
 
-    /// Goes back down as `one_by_one_up` went up.
+    /// Makes the downward pass through a strip link by link; the counterpart of `one_by_one_up`.
     #[inline(always)]
     fn one_by_one_down(&self, cells: &OwnCells<N, T>, strip: &Strip, out: &mut impl Output<T>) {
-        // SAFETY: places of strips and attachments are there, as the view has seen.
+        // SAFETY: the view has checked the positions of strips and attachments.
         unsafe {
             if let (0, Some([x, y])) = (strip.first.own, &self.view.root) {
                 self.accelerate(cells, strip, 0, [V::splat(*x), V::splat(*y)], out);
@@ -122,13 +123,13 @@ where
         }
     }
 
-    /// The responses of the links of a strip from the place `at` on.
+    /// Computes and returns the responses of the links of a strip from index `at` on.
     ///
     /// # Safety
-    /// A place of the strip.
+    /// `at` must be an index of the strip.
     #[inline(always)]
     unsafe fn response(&self, cells: &OwnCells<N, T>, strip: &Strip, at: usize) -> E::Response<V> {
-        // SAFETY: the caller's. All that a link has stands there, as the view has seen.
+        // SAFETY: guaranteed by the caller; the view has checked all numbers of the links.
         unsafe {
             let constants = self.constants(cells, at);
             let link = cells.links.motion(at, Self::READ);
@@ -142,11 +143,11 @@ where
         }
     }
 
-    /// Writes the accelerations of the links of a strip from the place `at` on, and
-    /// what they hand to their children.
+    /// Writes the accelerations of the links of a strip from index `at` on, and the numbers that
+    /// they pass to their children.
     ///
     /// # Safety
-    /// A place of the strip.
+    /// `at` must be an index of the strip.
     #[inline(always)]
     unsafe fn accelerate(
         &self,
@@ -156,7 +157,7 @@ where
         pivot: [V; 2],
         out: &mut impl Output<T>,
     ) {
-        // SAFETY: the caller's. All that a link has stands there, as the view has seen.
+        // SAFETY: guaranteed by the caller; the view has checked all numbers of the links.
         unsafe {
             let constants = self.constants(cells, at);
             let link = cells.links.motion(at, Self::READ);
@@ -172,13 +173,13 @@ where
         }
     }
 
-    /// A strip of links with constants of their own, up.
+    /// Makes the upward pass through a strip whose links have separate constants.
     #[inline(always)]
     fn links_up(&self, cells: &OwnCells<N, T>, strip: &Strip) {
-        let mut places = VectorPlaces::of::<T, V>(strip.length);
+        let mut places = VectorIndices::of::<T, V>(strip.length);
         while let Some(place) = places.next() {
             let at = strip.first.own + place;
-            // SAFETY: places of strips are there, as the view has seen.
+            // SAFETY: the view has checked the positions of strips.
             unsafe {
                 let response = self.response(cells, strip, at);
                 cells.links.responses.write(at, &response);
@@ -186,13 +187,14 @@ where
         }
     }
 
-    /// Goes back down as `links_up` went up; the accelerations of pivots are in memory.
+    /// Makes the downward pass through a strip; the counterpart of `links_up`. The accelerations of
+    /// the pivots are in memory.
     #[inline(always)]
     fn links_down(&self, cells: &OwnCells<N, T>, strip: &Strip, out: &mut impl Output<T>) {
-        let mut places = VectorPlaces::of::<T, V>(strip.length);
+        let mut places = VectorIndices::of::<T, V>(strip.length);
         while let Some(place) = places.next() {
             let at = strip.first.own + place;
-            // SAFETY: places of strips are there, as the view has seen.
+            // SAFETY: the view has checked the positions of strips.
             unsafe {
                 let pivot = cells.links.responses.read(at);
                 self.accelerate(cells, strip, at, pivot, out);
@@ -200,7 +202,7 @@ where
         }
     }
 
-    /// Adds the responses of a strip to the sums of the parents.
+    /// Adds the responses of a strip's links to the sums of their parents.
     #[inline(always)]
     fn attach(&self, cells: &OwnCells<N, T>, strip: &Strip) {
         let (from, to) = strip.attachments;
@@ -219,14 +221,15 @@ where
         }
     }
 
-    /// Adds the responses of children of the same parents, in registers: what has just
-    /// been written in another width, or a little beside, takes long to read.
+    /// Adds the responses of all children of the same parents while the sums are in registers,
+    /// because numbers that were just written with another width or at a shifted address are read
+    /// slowly.
     #[inline(always)]
     fn attach_siblings(&self, cells: &OwnCells<N, T>, first: &Attachment, siblings: &[Attachment]) {
         let mut at = 0;
         while at < first.length {
-            // SAFETY: places of attachments are there, as the view has seen. Lanes beyond the
-            // parents are written as they were.
+            // SAFETY: the view has checked the positions of attachments. Lanes past the parents are
+            // written back unchanged.
             unsafe {
                 let link = cells.links.motion(first.parent + at, Self::DIRECTION);
                 let mut sums: E::Sums<V> = cells.links.sums.read(first.slot + at);
@@ -250,7 +253,7 @@ where
         }
     }
 
-    /// Adds to the first `count` lanes of sums, or puts there what would be added to nothing.
+    /// Adds `terms` to the first `count` lanes of the sums, or sets these lanes if `fresh` is true.
     #[inline(always)]
     fn add_first(sums: &mut E::Sums<V>, terms: &E::Sums<V>, count: usize, fresh: bool) {
         let mut i = 0;
@@ -262,10 +265,10 @@ where
         }
     }
 
-    /// Adds the response of the child number `at` of an attachment.
+    /// Adds the response of child number `at` of an attachment to the sums of its parent.
     ///
     /// # Safety
-    /// The attachment has so many children.
+    /// The attachment must have this many children.
     #[inline(always)]
     unsafe fn attach_at(
         &self,
@@ -275,7 +278,7 @@ where
         response: E::Response<V>,
     ) {
         let (child, parent) = (attachment.child + at, attachment.parent + at);
-        // SAFETY: the caller's. All that both links have stands there, as the view has seen.
+        // SAFETY: guaranteed by the caller; the view has checked all numbers of both links.
         unsafe {
             let constants = self.constants(cells, child);
             let link = cells.links.motion(parent, Self::DIRECTION);
@@ -289,15 +292,15 @@ where
         }
     }
 
-    /// Writes the accelerations of the pivots of a strip.
+    /// Writes the accelerations of the pivots of a strip's children.
     #[inline(always)]
     fn hand_down(&self, cells: &OwnCells<N, T>, strip: &Strip) {
         let (from, to) = strip.attachments;
         for attachment in self.attachments.get(from..to).unwrap_or_default() {
             let mut at = 0;
             while at < attachment.length {
-                // Lanes beyond are those of children behind, which come later.
-                // SAFETY: places of attachments are there, as the view has seen.
+                // Lanes past the children belong to later children, which are written later.
+                // SAFETY: the view has checked the positions of attachments.
                 unsafe {
                     let pivot = self.pivot_at(cells, attachment, at);
                     cells.links.responses.write(attachment.child + at, &pivot);
@@ -307,10 +310,10 @@ where
         }
     }
 
-    /// The accelerations of the pivots of children.
+    /// Returns the accelerations of the pivots of the children from index `at` of an attachment on.
     ///
     /// # Safety
-    /// The attachment has more than `at` children.
+    /// The attachment must have more than `at` children.
     #[inline(always)]
     unsafe fn pivot_at(
         &self,
@@ -319,7 +322,7 @@ where
         at: usize,
     ) -> [V; 2] {
         let (child, parent) = (attachment.child + at, attachment.parent + at);
-        // SAFETY: the caller's. All that both links have stands there, as the view has seen.
+        // SAFETY: guaranteed by the caller; the view has checked all numbers of both links.
         unsafe {
             let constants = self.constants(cells, child);
             let link = cells.links.motion(parent, Self::DIRECTION);
@@ -331,16 +334,17 @@ where
         }
     }
 
-    /// The constants of the links from `at` on, each its own.
+    /// Returns the constants of the links from index `at` on.
     ///
     /// # Safety
-    /// Links of the tree.
+    /// They must be links of the tree.
     #[inline(always)]
     unsafe fn constants(&self, cells: &OwnCells<N, T>, at: usize) -> E::Constants<V> {
         let mut row = <E::Constants<V> as Row<V>>::filled(V::from_f64(0.0));
         let mut column = 0;
         while column < <E::Constants<V> as Row<V>>::LENGTH {
-            // SAFETY: the caller's. There is a column for each constant, as the view has seen.
+            // SAFETY: guaranteed by the caller; the view has checked that each constant has a
+            // column.
             row.as_mut()[column] = unsafe { constant(cells.constants, column, at) };
             column += 1;
         }
@@ -351,11 +355,11 @@ where
     }
 }
 
-/// The number in a column of constants of the links from `at` on: one for each lane of `V`, or
-/// the same for all states of a `T`.
+/// Returns one constant of the links from index `at` on: a separate number for each lane of `V` or,
+/// if a `T` holds several states, the same number for all states.
 ///
 /// # Safety
-/// The numbers may be read there.
+/// The numbers must be valid for reads.
 #[inline(always)]
 unsafe fn constant<N: Scalar, T: Scalar + Simd<N>, V: Simd<T>>(
     constants: Cells<N>,
@@ -363,9 +367,10 @@ unsafe fn constant<N: Scalar, T: Scalar + Simd<N>, V: Simd<T>>(
     at: usize,
 ) -> V {
     let start = constants.place(at, column);
-    // One lane in an array may be aligned so that it takes more memory than its number.
+    // A one-lane register may be aligned to more memory than its number.
     let is_number = const { <T as Simd<N>>::LANES == 1 && size_of::<T>() == size_of::<N>() };
-    // SAFETY: the caller's. A `T` of one lane and of this size is the `N` that it holds.
+    // SAFETY: guaranteed by the caller. A `T` of one lane and of this size is the `N` that it
+    // holds.
     unsafe {
         match is_number {
             true => V::read(start.cast()),

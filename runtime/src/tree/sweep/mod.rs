@@ -1,4 +1,4 @@
-//! Leaves to root, and back: the recursion over a block of the tree.
+//! Upward and downward pass of the recursion for accelerations through a block of the tree.
 
 mod by_link;
 mod passes;
@@ -9,21 +9,21 @@ use super::block::SubtreeBlock;
 use super::memory::Storage;
 #[cfg(test)]
 pub(super) use passes::SweepKernel;
-pub(super) use passes::{Passes, Way, add, sweep};
-pub(super) use strip::VectorPlaces;
+pub(super) use passes::{PassSelection, Passes, add, sweep};
+pub(super) use strip::VectorIndices;
 pub(super) use view::View;
 
-/// A block with its state.
+/// A block of a tree, with its state and its workspace.
 #[derive(Debug)]
 pub(super) struct Sweep<'a, N, T> {
     pub(super) block: SubtreeBlock<'a>,
-    /// Rows of all generations, or columns of all links.
+    /// Constants: one row for each generation, or one column per constant for all links.
     pub(super) constants: &'a [N],
-    /// Velocities, where they are read where they are given.
+    /// Angular velocities, if they are read from the caller's slice.
     pub(super) omega: &'a [T],
     pub(super) storage: Storage<'a, T>,
-    /// Acceleration of the root's pivot, where the root is in the block.
+    /// Acceleration of the root's pivot, if the root is in the block.
     pub(super) root: Option<[T; 2]>,
-    /// Torque on the root, where the root is in the block.
+    /// Torque on the root, if the root is in the block.
     pub(super) torque: Option<T>,
 }

@@ -1,4 +1,4 @@
-//! The equations, taken through a block: compiled with every model.
+//! Passes of the equations through a block, compiled with every model.
 
 #![allow(unsafe_code)]
 
@@ -16,26 +16,30 @@ use crate::tree::output::Output;
 use crate::tree::shared::Shared;
 use crate::tree::strips::{Attachment, Strip};
 
-/// Which way the equations are taken through a block.
+/// Selects the passes that are made through a block: upward, downward, or both.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::tree) struct Way<'a, T> {
-    /// From the leaves to the first generation, at first.
+pub(in crate::tree) struct PassSelection<'a, T> {
+    /// True to make the upward pass, from the leaves to the first generation.
     pub(in crate::tree) up: bool,
-    /// From the first generation, the accelerations of whose pivots are the root's or
-    /// in memory, to the leaves. The accelerations start with the block's first link,
-    /// and are as many as its strips reach.
+    /// Destination of the accelerations if the downward pass is made, from the first generation to
+    /// the leaves. The acceleration of the first generation's pivots is that of the root's pivot,
+    /// or is in memory. The destination starts with the block's first link and reaches as far as
+    /// its strips.
     pub(in crate::tree) down: Option<Shared<'a, T>>,
 }
 
-/// Takes the equations through a block, in the widest registers of the machine.
-pub(in crate::tree) fn sweep<E: LinkEquations, T: Scalar>(view: &View<'_, T, T>, way: Way<'_, T>) {
+/// Evaluates the equations through a block, in the widest registers of the machine.
+pub(in crate::tree) fn sweep<E: LinkEquations, T: Scalar>(
+    view: &View<'_, T, T>,
+    way: PassSelection<'_, T>,
+) {
     in_widest(SweepKernel::<E, T>(view, way, PhantomData));
 }
 
-/// [`sweep`] in one kind of registers.
+/// Operation that runs [`sweep`] with one kind of registers.
 pub(in crate::tree) struct SweepKernel<'a, E, T>(
     pub(in crate::tree) &'a View<'a, T, T>,
-    pub(in crate::tree) Way<'a, T>,
+    pub(in crate::tree) PassSelection<'a, T>,
     pub(in crate::tree) PhantomData<E>,
 );
 
@@ -44,7 +48,7 @@ impl<E: LinkEquations, T: Scalar> Kernel<T> for SweepKernel<'_, E, T> {
 
     #[inline(always)]
     fn run<V: Simd<T>>(self) {
-        let (passes, Way { up, down }) = (Passes::<E, T, T, V>::of(self.0), self.1);
+        let (passes, PassSelection { up, down }) = (Passes::<E, T, T, V>::of(self.0), self.1);
         if up {
             passes.up();
         }
@@ -54,19 +58,19 @@ impl<E: LinkEquations, T: Scalar> Kernel<T> for SweepKernel<'_, E, T> {
     }
 }
 
-/// The passes through a block, in vectors `V` of numbers `T`, for one set of equations.
+/// Passes of one set of equations through a block, in vectors `V` of numbers `T`.
 pub(in crate::tree) struct Passes<'a, E, N, T, V> {
     pub(super) view: &'a View<'a, N, T>,
-    /// None if the block is not one of these equations.
+    /// Strips of the block; empty if the block's layout does not match these equations.
     pub(super) strips: &'a [Strip],
     pub(super) attachments: &'a [Attachment],
     types: PhantomData<(E, V)>,
 }
 
-// Of all this: there are strips only if the view has the columns of these
-// equations; all places come from `StripView::places`, copies are counted up to
-// `StripView::copies`, and attachments are those of the strips. Behind the last place there is
-// room for the widest register; states in lanes, `T`, are a `V` each.
+// Safety of all functions here: strips exist only if the view has the columns of these equations;
+// all indices come from `StripView::places`, copies are counted up to `StripView::copies`, and
+// attachments are those of the strips. After the last index a register of the widest kind fits;
+// states in lanes, `T`, are one `V` each.
 impl<'a, E, N, T, V> Passes<'a, E, N, T, V>
 where
     E: LinkEquations,
@@ -74,30 +78,30 @@ where
     T: Scalar + Simd<N>,
     V: Simd<T>,
 {
-    /// How many copies of children there are everywhere, otherwise 0: what is known
-    /// when the equations are compiled takes no loop.
+    /// Number of copies under each link if it is the same in all generations, otherwise 0; a
+    /// constant number needs no loop.
     const BRANCHING: usize = branching(E::COPIES);
 
-    /// Numbers `T` are several states: the numbers of a link stand side by side then.
+    /// True if a number `T` holds several states; the numbers of a link are then contiguous.
     const IN_ROWS: bool = <T as Simd<N>>::LANES > 1;
 
     const SIZES: Sizes = Sizes::of::<E, V>();
 
-    /// Values that the equations read of a link's own motion.
+    /// Selection of those quantities of a link's own motion that the equations use.
     pub(super) const READ: Read = Read {
         joints: E::JOINTS,
         torques: E::FORCED,
-        held: E::HELD,
+        prescribed: E::PRESCRIBED,
     };
 
-    /// Values that they read of the motion of a parent.
+    /// Selection of those quantities of the parent's motion that the equations use.
     pub(super) const DIRECTION: Read = Read {
         joints: false,
         torques: false,
-        held: false,
+        prescribed: false,
     };
 
-    /// Constants are a row a link.
+    /// True if constants have one row per link.
     const BY_LINK: bool = E::COPIES.is_empty();
 
     #[inline(always)]
@@ -112,15 +116,15 @@ where
         }
     }
 
-    /// Returns the passes through these strips alone.
+    /// Returns passes that are restricted to these strips.
     #[inline(always)]
     pub(in crate::tree) fn within(self, strips: Range<usize>) -> Self {
         let strips = self.strips.get(strips).unwrap_or_default();
         Self { strips, ..self }
     }
 
-    /// Where the numbers of links stand: asked for where a loop begins, since compilers
-    /// read what is behind a reference again after everything that is written.
+    /// Returns the memory layout of the links' numbers. It is called at the start of each loop,
+    /// because a compiler reloads values behind a reference after every write.
     #[inline(always)]
     pub(super) fn links(&self) -> LinkCells<T> {
         match Self::IN_ROWS {
@@ -129,7 +133,7 @@ where
         }
     }
 
-    /// The constants of a generation; zeros if it has none.
+    /// Returns the constants of a generation; zeros if it has none.
     #[inline(always)]
     fn row(&self, generation: usize) -> E::Constants<V> {
         let mut row = <E::Constants<V> as Row<V>>::filled(V::from_f64(0.0));
@@ -157,14 +161,14 @@ where
         }
     }
 
-    /// The constants of leaves: the last row.
+    /// Returns the constants of leaves, which are in the last row.
     #[inline(always)]
     fn leaf(&self) -> E::Constants<V> {
         let rows = self.view.constants.len() / <E::Constants<V> as Row<V>>::LENGTH.max(1);
         self.row(rows.saturating_sub(1))
     }
 
-    /// From the leaves to the first strip.
+    /// Makes the upward pass, from the leaves to the first strip.
     #[inline(always)]
     pub(in crate::tree) fn up(&self) {
         match Self::BY_LINK {
@@ -173,8 +177,8 @@ where
         }
     }
 
-    /// From the first strip, the acceleration of whose pivots is the root's or in
-    /// memory, to the leaves.
+    /// Makes the downward pass, from the first strip to the leaves. The acceleration of the first
+    /// strip's pivots is that of the root's pivot, or is in memory.
     #[inline(always)]
     pub(in crate::tree) fn down(&self, out: &mut impl Output<T>) {
         match Self::BY_LINK {
@@ -183,9 +187,9 @@ where
         }
     }
 
-    /// From the last generation to the first. The equations stand here once, for links
-    /// above leaves, in the uppermost generations and between: every copy of them is
-    /// compiled with each model, three times.
+    /// Makes the upward pass through generations. The same loop body serves links above leaves, the
+    /// uppermost generations and those in between, because every copy of the equations is compiled
+    /// three times with each model.
     #[inline(always)]
     fn generations_up(&self) {
         let leaf = self.leaf();
@@ -197,7 +201,7 @@ where
             let near = StripView::of(self.links(), strip, Self::BRANCHING);
             let mut places = near.places::<V>();
             while let Some(at) = places.next() {
-                // SAFETY: places of a strip and its copies are there, as the view has seen.
+                // SAFETY: the view has checked the indices of a strip and its copies.
                 unsafe {
                     let link = near.links.motion(at, Self::READ);
                     let below = match strip.leaves {
@@ -218,10 +222,10 @@ where
         }
     }
 
-    /// The sum of the responses of children that are leaves.
+    /// Computes the responses of those children that are leaves, and returns their sum.
     ///
     /// # Safety
-    /// A place of the strip.
+    /// `at` must be an index of the strip.
     #[inline(always)]
     unsafe fn leaves(
         near: &StripView<T>,
@@ -229,7 +233,7 @@ where
         constants: &E::Constants<V>,
         link: LinkMotion<V>,
     ) -> E::Sums<V> {
-        // SAFETY: the caller's; its copies are there, as the view has seen.
+        // SAFETY: guaranteed by the caller; the view has checked its copies.
         unsafe {
             let mut sums = E::leaf(constants, near.children.motion(at, Self::READ));
             let mut copy = 1;
@@ -242,10 +246,10 @@ where
         }
     }
 
-    /// The sum of the responses of children that are no leaves.
+    /// Returns the sum of the stored responses of those children that have children.
     ///
     /// # Safety
-    /// A place of the strip.
+    /// `at` must be an index of the strip.
     #[inline(always)]
     unsafe fn sum(
         near: &StripView<T>,
@@ -253,7 +257,7 @@ where
         constants: &E::Constants<V>,
         link: LinkMotion<V>,
     ) -> E::Sums<V> {
-        // SAFETY: the caller's; its copies are there, as the view has seen.
+        // SAFETY: guaranteed by the caller; the view has checked its copies.
         unsafe {
             let mut sums: E::Response<V> = near.children.responses.read(at);
             let mut copy = 1;
@@ -266,7 +270,8 @@ where
         }
     }
 
-    /// Adds them up where they are in registers, one child behind the other.
+    /// Returns the sum of the children's responses, which are in registers, adding one child after
+    /// the other.
     #[inline(always)]
     fn neighbours(
         responses: &E::Response<V>,
@@ -289,7 +294,7 @@ where
         E::attach(constants, link, sums)
     }
 
-    /// From the first generation to the last.
+    /// Makes the downward pass through generations, from the first to the last.
     #[inline(always)]
     fn generations_down(&self, out: &mut impl Output<T>) {
         let leaf = self.leaf();
@@ -306,7 +311,7 @@ where
             let in_register = strip.lanes <= V::LANES;
             let mut places = near.places::<V>();
             while let Some(at) = places.next() {
-                // SAFETY: places of a strip and its copies are there, as the view has seen.
+                // SAFETY: the view has checked the indices of a strip and its copies.
                 unsafe {
                     if !known {
                         pivot = near.links.responses.read(at);
@@ -339,10 +344,11 @@ where
         }
     }
 
-    /// The accelerations of children that are leaves, whose pivot has one.
+    /// Writes the accelerations of those children that are leaves, computed from the acceleration
+    /// of their pivot.
     ///
     /// # Safety
-    /// A place of the strip.
+    /// `at` must be an index of the strip.
     #[inline(always)]
     unsafe fn leaves_down(
         near: &StripView<T>,
@@ -353,7 +359,7 @@ where
     ) {
         let mut copy = 0;
         while copy < near.copies {
-            // SAFETY: the caller's; its copies are there, as the view has seen.
+            // SAFETY: guaranteed by the caller; the view has checked its copies.
             unsafe {
                 let link = near.children.motion(at + copy * near.apart, Self::READ);
                 let acceleration = E::accelerate_leaf(constants, link, pivot);
@@ -364,11 +370,12 @@ where
     }
 }
 
-/// As many copies are written one after the other, where all generations have them.
+/// Largest number of copies for which code is written out instead of a loop, if all generations
+/// have this number.
 const UNROLLED: usize = 4;
 
-/// Copies of every generation but the root's, 0 if these are not as many everywhere,
-/// or too many.
+/// Returns the number of copies in every generation below the root; 0 if it differs between
+/// generations or is too large.
 const fn branching(copies: &[usize]) -> usize {
     let mut generation = 2;
     while generation < copies.len() {
@@ -383,8 +390,8 @@ const fn branching(copies: &[usize]) -> usize {
     copies[1]
 }
 
-// `map`, `from_fn` and iterators are not always inlined, must be, and are many lines
-// to compile.
+// A plain loop: `map`, `from_fn` and iterators are not always inlined, which they must be, and take
+// long to compile.
 #[inline(always)]
 pub(in crate::tree) fn add<V: Scalar, A: Row<V>>(sums: &mut A, terms: &A) {
     let mut i = 0;

@@ -1,4 +1,4 @@
-//! Where the equations read and write: a vector of neighbours at a time.
+//! Access to the numbers of a strip of links, one vector of neighbouring links at a time.
 
 #![allow(unsafe_code)]
 
@@ -8,14 +8,14 @@ use crate::simd::Simd;
 use crate::tree::output::Output;
 use crate::tree::strips::Strip;
 
-/// The numbers of neighbours and of their children, from the first one's on. The
-/// children are leaves, or their responses are in memory.
+/// Access to the numbers of a strip's links and of their children. The children are leaves, or
+/// their responses are in memory.
 ///
-/// The functions take the place of a vector among the neighbours, a multiple of its
-/// lanes or the last place, and the number of a copy of the children. All are sound
-/// for equations of the sizes that [`strips`](super::view::View::strips) has been asked for.
-// A copy of its own: compilers keep it in registers, and read what is behind a
-// reference again after everything that is written.
+/// The functions take the index of a vector of neighbouring links (a multiple of its number of
+/// lanes, or the last index), and the index of a copy of the children. They are sound for equations
+/// of the sizes for which [`strips`](super::view::View::strips) was called.
+// Passed by value: a compiler keeps it in registers, and reloads values behind a reference after
+// every write.
 pub(super) struct StripView<T> {
     length: usize,
     pub(super) links: LinkCells<T>,
@@ -24,18 +24,17 @@ pub(super) struct StripView<T> {
     child_whole: usize,
     step: usize,
     pub(super) copies: usize,
-    /// From one copy to the next.
+    /// Distance between the numbers of two copies of the children.
     pub(super) apart: usize,
     whole_apart: usize,
 }
 
-// Of all these: the numbers are the view's own for as long as it lives,
-// and no reference to them is there. By `view` there are as many as the strips reach,
-// with those of a vector of any width from the last place on, in as many columns as
-// the sizes say.
+// Safety of all functions here: the numbers belong to the view while it lives, and no reference to
+// them exists. `view` guarantees as many as the strips reach, including a vector of any width from
+// the last index on, in as many columns as the sizes say.
 impl<T: Scalar> StripView<T> {
-    /// Of a strip that has come from [`strips`](super::view::View::strips), for the same
-    /// `branching`, among these numbers of all links.
+    /// Creates the view of a strip among the numbers of all links. The strip must come from
+    /// [`strips`](super::view::View::strips) with the same `branching`.
     #[inline(always)]
     pub(super) fn of(links: LinkCells<T>, strip: &Strip, branching: usize) -> Self {
         let Strip {
@@ -63,15 +62,16 @@ impl<T: Scalar> StripView<T> {
         }
     }
 
-    /// The places of vectors: the last ones overlap those before, where vectors do not
-    /// divide the neighbours; fewer than a vector holds are one step, whose other
-    /// lanes mean nothing.
+    /// Iterates over the indices of vectors that cover the links. If the number of links is not a
+    /// multiple of the lanes, the last vector overlaps the one before; fewer links than lanes are
+    /// one vector, whose other lanes are unused.
     #[inline(always)]
-    pub(super) fn places<V: Simd<T>>(&self) -> VectorPlaces {
-        VectorPlaces::of::<T, V>(self.length)
+    pub(super) fn places<V: Simd<T>>(&self) -> VectorIndices {
+        VectorIndices::of::<T, V>(self.length)
     }
 
-    /// From one link to the next in the tree: neighbours in lanes stand side by side.
+    /// Returns the distance between links in the arrays of the tree: 1 if lanes hold neighbouring
+    /// links.
     #[inline(always)]
     fn step<V: Simd<T>>(&self) -> usize {
         match V::LANES {
@@ -80,10 +80,10 @@ impl<T: Scalar> StripView<T> {
         }
     }
 
-    /// Writes their accelerations.
+    /// Writes the accelerations of the links from index `at` on.
     ///
     /// # Safety
-    /// A place of the strip.
+    /// `at` must be an index of the strip.
     #[inline(always)]
     pub(super) unsafe fn accelerate<V: Simd<T>>(
         &self,
@@ -96,10 +96,10 @@ impl<T: Scalar> StripView<T> {
         unsafe { out.write(self.whole + at * self.step::<V>(), alpha, count) }
     }
 
-    /// Writes the accelerations of children that are leaves.
+    /// Writes the accelerations of copy number `copy` of the children, which are leaves.
     ///
     /// # Safety
-    /// A place of the strip, and a copy that it has.
+    /// `at` must be an index of the strip, and `copy` must exist.
     #[inline(always)]
     pub(super) unsafe fn accelerate_leaf<V: Simd<T>>(
         &self,
@@ -115,16 +115,17 @@ impl<T: Scalar> StripView<T> {
     }
 }
 
-/// Places of vectors among neighbours.
-pub(in crate::tree) struct VectorPlaces {
+/// Iterator over the indices of vectors that cover neighbouring links; the last vector may overlap
+/// the one before.
+pub(in crate::tree) struct VectorIndices {
     next: usize,
     step: usize,
     last: usize,
     length: usize,
 }
 
-impl VectorPlaces {
-    /// Of so many neighbours.
+impl VectorIndices {
+    /// Creates the indices for `length` neighbouring links.
     #[inline(always)]
     pub(in crate::tree) fn of<T, V: Simd<T>>(length: usize) -> Self {
         Self {

@@ -1,4 +1,4 @@
-//! Places that the equations of a block read and write, as pointers that were checked.
+//! Memory that the equations of a block read and write, as pointers whose bounds were checked.
 
 #![allow(unsafe_code)]
 
@@ -12,11 +12,11 @@ use crate::tree::equations::LinkMotion;
 use crate::tree::memory::Sizes;
 use crate::tree::strips::{Attachment, Strip};
 
-/// The numbers of a block, and its strips, none of which goes beyond these numbers.
+/// The numbers of a block, and its strips, all of which lie within these numbers.
 ///
-/// Constants are numbers `N`, all others `T`: the same numbers, or several states'.
-/// All bounds are checked once, and where this crate is compiled: in the equations,
-/// which are compiled with every model, the checks would be more than the mechanics.
+/// Constants have the type `N`, all other numbers the type `T`, which is the same or holds several
+/// states. All bounds are checked once, in code that is compiled with this crate. In the equations,
+/// which are compiled with every model, checks would cost more than the mechanics.
 #[derive(Debug)]
 pub(in crate::tree) struct View<'a, N, T> {
     strips: &'a [Strip],
@@ -24,57 +24,59 @@ pub(in crate::tree) struct View<'a, N, T> {
     branching: usize,
     sizes: Sizes,
     in_rows: bool,
-    /// Sines and cosines, velocities, joint angles and rates, torques from outside, and
-    /// held links; from one column to the next.
+    /// Pointers to the first columns of sines and cosines, velocities, joint angles and rates,
+    /// external torques, and flags of prescribed links; with the distances between their columns.
     sincos: *mut T,
     omega: *mut T,
     joint_motions: *mut T,
     torques: *mut T,
-    held: *mut T,
+    prescribed: *mut T,
     links: usize,
-    /// Responses, sums, and what is kept; from one column to the next.
+    /// Pointers to the first columns of responses, of their sums, and of the numbers kept for the
+    /// downward pass; with the distances between their columns.
     responses: *mut T,
     sums: *mut T,
     eliminations: *mut T,
     slots: usize,
-    /// Rows of all generations, or columns of all links.
+    /// Constants: one row for each generation, or one column per constant for all links.
     pub(super) constants: &'a [N],
     /// The length of these columns.
     column: usize,
     /// Acceleration of the root's pivot, and torque on it.
     pub(super) root: Option<[T; 2]>,
     pub(super) torque: Option<T>,
-    /// The block's numbers, which are its alone.
+    /// Marks that the block has exclusive access to its numbers.
     numbers: PhantomData<&'a mut [T]>,
 }
 
-/// Values that equations read of a link's motion beside sine, cosine and velocity.
+/// Flags of the quantities of a link's motion that equations read in addition to sine, cosine and
+/// velocity.
 #[derive(Clone, Copy)]
 pub(super) struct Read {
     /// Joint angle and rate.
     pub(super) joints: bool,
-    /// The torque from outside.
+    /// External torque.
     pub(super) torques: bool,
-    /// Held or not.
-    pub(super) held: bool,
+    /// Flag of a prescribed link.
+    pub(super) prescribed: bool,
 }
 
-/// Where the numbers of links stand.
+/// Memory layout of the numbers of all links.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct LinkCells<T> {
     sincos: Cells<T>,
     omega: Cells<T>,
     joint_motions: Cells<T>,
     torques: Cells<T>,
-    held: Cells<T>,
+    prescribed: Cells<T>,
     pub(super) responses: Cells<T>,
     pub(super) sums: Cells<T>,
     pub(super) eliminations: Cells<T>,
 }
 
 impl<T: Scalar> LinkCells<T> {
-    /// Returns those of the links from one on, that stands there among all links and
-    /// among those with children.
+    /// Returns the layout that starts with a given link; `own` is its index among all links, `slot`
+    /// its index among links with children.
     #[inline(always)]
     pub(super) fn from(self, own: usize, slot: usize) -> Self {
         Self {
@@ -82,17 +84,18 @@ impl<T: Scalar> LinkCells<T> {
             omega: self.omega.from(own),
             joint_motions: self.joint_motions.from(own),
             torques: self.torques.from(own),
-            held: self.held.from(own),
+            prescribed: self.prescribed.from(own),
             responses: self.responses.from(slot),
             sums: self.sums.from(slot),
             eliminations: self.eliminations.from(slot),
         }
     }
 
-    /// Reads the motions of the links from `at` on, of which the equations read these.
+    /// Reads the motions of the links from `at` on: sine, cosine and velocity, and the quantities
+    /// that `read` selects.
     ///
     /// # Safety
-    /// As many links as `V` has lanes are there.
+    /// There must be at least as many links from `at` on as `V` has lanes.
     #[inline(always)]
     pub(super) unsafe fn motion<V: Simd<T>>(&self, at: usize, read: Read) -> LinkMotion<V> {
         // SAFETY: the caller's.
@@ -108,8 +111,8 @@ impl<T: Scalar> LinkCells<T> {
                 true => self.torques.read(at),
                 false => [omega],
             };
-            let [held] = match read.held {
-                true => self.held.read(at),
+            let [prescribed] = match read.prescribed {
+                true => self.prescribed.read(at),
                 false => [omega],
             };
             LinkMotion {
@@ -119,14 +122,14 @@ impl<T: Scalar> LinkCells<T> {
                 joint_angle,
                 joint_rate,
                 outside_torque,
-                held,
+                prescribed,
             }
         }
     }
 }
 
 impl<N, T: Scalar> Sweep<'_, N, T> {
-    /// None where there are fewer numbers than the strips reach.
+    /// Creates the view; returns `None` if there are fewer numbers than the strips require.
     // Moved, it would be read in other widths than it was just written in, and a
     // processor waits for that.
     #[inline(always)]
@@ -142,7 +145,7 @@ impl<N, T: Scalar> Sweep<'_, N, T> {
         let reach = block.strips.reach();
         let (sizes, slots) = (storage.sizes, storage.slots);
         let column = match sizes.constants {
-            // Nothing is read of links that are alike.
+            // Identical links share their constants, so that no column is read.
             0 => usize::MAX,
             columns => constants.len() / columns,
         };
@@ -155,9 +158,9 @@ impl<N, T: Scalar> Sweep<'_, N, T> {
             true => storage.torques.window(storage.lead, reach.own)?,
             false => storage.torques,
         };
-        let held = match sizes.held {
-            true => storage.held.window(storage.lead, reach.own)?,
-            false => storage.held,
+        let prescribed = match sizes.prescribed {
+            true => storage.prescribed.window(storage.lead, reach.own)?,
+            false => storage.prescribed,
         };
         let all = |columns: usize, numbers: &[T]| columns * slots <= numbers.len();
         let there = reach.slot <= slots
@@ -182,7 +185,7 @@ impl<N, T: Scalar> Sweep<'_, N, T> {
             omega,
             joint_motions: joint_motions.start(),
             torques: torques.start(),
-            held: held.start(),
+            prescribed: prescribed.start(),
             links: sincos.stride(),
             responses: storage.responses.as_mut_ptr(),
             sums: storage.sums.as_mut_ptr(),
@@ -198,9 +201,9 @@ impl<N, T: Scalar> Sweep<'_, N, T> {
 }
 
 impl<'a, N: Scalar, T: Scalar> View<'a, N, T> {
-    /// Returns the strips and their attachments, for equations of these sizes, numbers in
-    /// rows or columns and, where this is not 0, so many copies of children everywhere;
-    /// none for others.
+    /// Returns the strips and their attachments for equations of the given sizes, with numbers
+    /// stored in rows or in columns, and with `branching` children per link (0: any number). Both
+    /// are empty if the block does not match.
     #[inline(always)]
     pub(super) fn strips(
         &self,
@@ -215,7 +218,7 @@ impl<'a, N: Scalar, T: Scalar> View<'a, N, T> {
         }
     }
 
-    /// Returns where the numbers of links stand, in columns.
+    /// Returns the memory layout of the links' numbers, if they are stored in columns.
     #[inline(always)]
     pub(super) fn columns(&self) -> LinkCells<T> {
         LinkCells {
@@ -223,14 +226,15 @@ impl<'a, N: Scalar, T: Scalar> View<'a, N, T> {
             omega: Cells::columns(self.omega, self.links),
             joint_motions: Cells::columns(self.joint_motions, self.links),
             torques: Cells::columns(self.torques, self.links),
-            held: Cells::columns(self.held, self.links),
+            prescribed: Cells::columns(self.prescribed, self.links),
             responses: Cells::columns(self.responses, self.slots),
             sums: Cells::columns(self.sums, self.slots),
             eliminations: Cells::columns(self.eliminations, self.slots),
         }
     }
 
-    /// Returns where the numbers of links stand, in rows for equations of these sizes.
+    /// Returns the memory layout of the links' numbers, if they are stored in rows, for equations
+    /// of these sizes.
     #[inline(always)]
     pub(super) fn rows(&self, sizes: Sizes) -> LinkCells<T> {
         LinkCells {
@@ -238,14 +242,15 @@ impl<'a, N: Scalar, T: Scalar> View<'a, N, T> {
             omega: Cells::rows(self.omega, sizes.motion()),
             joint_motions: Cells::rows(self.joint_motions, sizes.motion()),
             torques: Cells::rows(self.torques, sizes.motion()),
-            held: Cells::rows(self.held, sizes.motion()),
+            prescribed: Cells::rows(self.prescribed, sizes.motion()),
             responses: Cells::rows(self.responses, sizes.responses),
             sums: Cells::rows(self.sums, sizes.sums),
             eliminations: Cells::rows(self.eliminations, sizes.eliminations),
         }
     }
 
-    /// Returns where the constants of links stand, for a tree with a row a link.
+    /// Returns the memory layout of the links' constants, for a tree with separate constants for
+    /// each link.
     #[inline(always)]
     pub(super) fn columns_of_constants(&self) -> Cells<N> {
         // Nobody writes there.

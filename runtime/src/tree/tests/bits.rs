@@ -48,7 +48,7 @@ impl<E: LinkEquations, T: Lane> Kernel<T> for States<'_, E, T> {
     fn run<V: Simd<T>>(self) -> Vec<T> {
         let Self(tree, links) = self;
         let [theta, omega, torques] = motion::<T>(links);
-        let mut room = alloc::vec![V::from_f64(f64::NAN); tree.room()];
+        let mut buffer = alloc::vec![V::from_f64(f64::NAN); tree.workspace_len()];
         let mut alpha = alloc::vec![T::from_f64(f64::NAN); links];
         let drive = drive::<T>();
         let mut offsets = [T::from_f64(0.0); 16];
@@ -63,7 +63,7 @@ impl<E: LinkEquations, T: Lane> Kernel<T> for States<'_, E, T> {
         states::accelerations::<E, T, V>(
             &tree.skeleton,
             acting,
-            &mut room,
+            &mut buffer,
             |link| V::splat(theta[link]) + offsets,
             |link| V::splat(omega[link]),
             |link| [V::splat(torques[link]), V::from_f64(0.0)],

@@ -4,14 +4,15 @@
 /// The equations of one link, by articulated-body recursion in the plane
 /// (Featherstone, Rigid Body Dynamics Algorithms, 2008, ch. 7).
 ///
-/// Subtrees that hang at (ℓ, w) answer the acceleration **a** of their pivot with
-/// the force σ **a** + γ − N **a**. Their articulated inertia is σ − N; σ is the
-/// mass of those that are single links, and zero for others. J is the moment of
-/// inertia that the joint feels, b the first moment, κ the bias torque, f the force
-/// with the joint held; primed are N and γ of the subtree that the link carries,
-/// and the acceleration of its children's pivot. The code carries −**a**, the
-/// apparent gravity, has all masses over m and all lengths over l of the commonest
-/// leaf, and angles of a link by its own length.
+/// Subtrees that hang at (ℓ, w) respond to the acceleration **a** of their pivot
+/// with the force σ **a** + γ − N **a**. Their articulated inertia is σ − N; σ is
+/// the mass of those subtrees that are single links. J is the moment of inertia
+/// about the joint, b the first moment, κ the bias torque, f the force if the joint
+/// does not move. A prime marks N and γ of the subtree that begins with the link,
+/// and the acceleration of its children's pivot. The code uses −**a**, the apparent
+/// gravity. Masses and lengths are divided by the mass m and length l of the most
+/// frequent kind of leaf, and accelerations of a link are multiplied by its own
+/// unit of length.
 ///
 /// ```text
 /// S = m + σ
@@ -69,8 +70,8 @@ impl ::branched_pendulum::tree::LinkEquations for ByRuleEquations {
     /// The response of a link without children: N and γ, and the torque of its joint on
     /// the parent where joints have torques.
     ///
-    /// Cost: 24 ×, 12 ±, 1 ÷, 2 √, 1 negation; 8 of the ± take a × along where the
-    /// scalar fuses.
+    /// Cost: 24 ×, 12 ±, 1 ÷, 2 √, 1 negation; 8 of the ± can be fused with a × if the
+    /// scalar supports it.
     #[inline(always)]
     fn leaf<T: ::branched_pendulum::Scalar>(
         constants: &Self::Constants<T>,
@@ -139,8 +140,8 @@ impl ::branched_pendulum::tree::LinkEquations for ByRuleEquations {
 
     /// The response of a link with children, and b/J and κ/J, which `accelerate` takes.
     ///
-    /// Cost: 46 ×, 40 ±, 2 ÷, 2 √, 1 negation; 24 of the ± take a × along where the
-    /// scalar fuses.
+    /// Cost: 46 ×, 40 ±, 2 ÷, 2 √, 1 negation; 24 of the ± can be fused with a × if the
+    /// scalar supports it.
     #[inline(always)]
     fn inner<T: ::branched_pendulum::Scalar>(
         constants: &Self::Constants<T>,
@@ -248,7 +249,7 @@ impl ::branched_pendulum::tree::LinkEquations for ByRuleEquations {
     /// The angular acceleration (in rad/s²) of a link with children, and what it hands
     /// them.
     ///
-    /// Cost: 11 ×, 8 ±; 7 of the ± take a × along where the scalar fuses.
+    /// Cost: 11 ×, 8 ±; 7 of the ± can be fused with a × if the scalar supports it.
     #[inline(always)]
     fn accelerate<T: ::branched_pendulum::Scalar>(
         constants: &Self::Constants<T>,
@@ -287,7 +288,8 @@ impl ::branched_pendulum::tree::LinkEquations for ByRuleEquations {
 
     /// The angular acceleration (in rad/s²) of a link without children.
     ///
-    /// Cost: 18 ×, 12 ±, 1 ÷, 2 √; 8 of the ± take a × along where the scalar fuses.
+    /// Cost: 18 ×, 12 ±, 1 ÷, 2 √; 8 of the ± can be fused with a × if the scalar
+    /// supports it.
     #[inline(always)]
     fn accelerate_leaf<T: ::branched_pendulum::Scalar>(
         constants: &Self::Constants<T>,
@@ -332,7 +334,7 @@ impl ::branched_pendulum::tree::ScaleEquations for ByRuleEquations {
     const SPRINGS: bool = true;
     const FRICTION: bool = true;
     const DRAG: bool = true;
-    const MOVED: bool = true;
+    const DRIVEN: bool = true;
 
     /// Strain ε of the spring in the link's pivot, the torques κ ε and c (ω − ω_parent)
     /// of the joint on the parent, and k ω on the ground; with friction that is not
@@ -355,7 +357,8 @@ impl ::branched_pendulum::tree::ScaleEquations for ByRuleEquations {
     /// ```
     /// </details>
     ///
-    /// Cost: 11 ×, 6 ±, 1 ÷, 2 √; 5 of the ± take a × along where the scalar fuses.
+    /// Cost: 11 ×, 6 ±, 1 ÷, 2 √; 5 of the ± can be fused with a × if the scalar
+    /// supports it.
     #[inline(always)]
     fn scale_torques<T: ::branched_pendulum::Scalar>(
         constants: &Self::Constants<T>,
@@ -408,7 +411,7 @@ impl ::branched_pendulum::tree::ScaleEquations for ByRuleEquations {
     /// ```
     /// </details>
     ///
-    /// Cost: 12 ×, 8 ±; 6 of the ± take a × along where the scalar fuses.
+    /// Cost: 12 ×, 8 ±; 6 of the ± can be fused with a × if the scalar supports it.
     #[inline(always)]
     fn scale_velocity<T: ::branched_pendulum::Scalar>(
         constants: &Self::Constants<T>,
@@ -455,7 +458,7 @@ impl ::branched_pendulum::tree::ScaleEquations for ByRuleEquations {
     /// ```
     /// </details>
     ///
-    /// Cost: 12 ×, 8 ±; 7 of the ± take a × along where the scalar fuses.
+    /// Cost: 12 ×, 8 ±; 7 of the ± can be fused with a × if the scalar supports it.
     #[inline(always)]
     fn scale_moment<T: ::branched_pendulum::Scalar>(
         constants: &Self::Constants<T>,
@@ -511,7 +514,7 @@ impl ::branched_pendulum::tree::ScaleEquations for ByRuleEquations {
     /// ```
     /// </details>
     ///
-    /// Cost: 17 ×, 6 ±; 6 of the ± take a × along where the scalar fuses.
+    /// Cost: 17 ×, 6 ±; 6 of the ± can be fused with a × if the scalar supports it.
     #[inline(always)]
     fn scale_energy<T: ::branched_pendulum::Scalar>(
         constants: &Self::Constants<T>,
@@ -555,7 +558,8 @@ impl ::branched_pendulum::tree::ScaleEquations for ByRuleEquations {
     /// Deficit N of the articulated inertia of the subtree, b/J and 1/J, given N of
     /// what hangs from the link: the factors of M u = ∂E/∂ω, which all scales share.
     ///
-    /// Cost: 19 ×, 15 ±, 1 ÷; 9 of the ± take a × along where the scalar fuses.
+    /// Cost: 19 ×, 15 ±, 1 ÷; 9 of the ± can be fused with a × if the scalar supports
+    /// it.
     #[inline(always)]
     fn scale_factor<T: ::branched_pendulum::Scalar>(
         constants: &Self::Constants<T>,
@@ -602,7 +606,8 @@ impl ::branched_pendulum::tree::ScaleEquations for ByRuleEquations {
     /// ```
     /// </details>
     ///
-    /// Cost: 12 ×, 8 ±, 1 negation; 6 of the ± take a × along where the scalar fuses.
+    /// Cost: 12 ×, 8 ±, 1 negation; 6 of the ± can be fused with a × if the scalar
+    /// supports it.
     #[inline(always)]
     fn scale_eliminate<T: ::branched_pendulum::Scalar>(
         constants: &Self::Constants<T>,
@@ -657,7 +662,7 @@ impl ::branched_pendulum::tree::ScaleEquations for ByRuleEquations {
     /// ```
     /// </details>
     ///
-    /// Cost: 23 ×, 14 ±; 11 of the ± take a × along where the scalar fuses.
+    /// Cost: 23 ×, 14 ±; 11 of the ± can be fused with a × if the scalar supports it.
     #[inline(always)]
     fn scale_flow<T: ::branched_pendulum::Scalar>(
         constants: &Self::Constants<T>,
@@ -713,7 +718,7 @@ impl ::branched_pendulum::tree::ScaleEquations for ByRuleEquations {
     /// ```
     /// </details>
     ///
-    /// Cost: 9 ×, 7 ±; 3 of the ± take a × along where the scalar fuses.
+    /// Cost: 9 ×, 7 ±; 3 of the ± can be fused with a × if the scalar supports it.
     #[inline(always)]
     fn scale_slope<T: ::branched_pendulum::Scalar>(
         constants: &Self::Constants<T>,
@@ -759,7 +764,7 @@ impl ::branched_pendulum::tree::ScaleEquations for ByRuleEquations {
     /// ```
     /// </details>
     ///
-    /// Cost: 8 ×, 3 ±; 3 of the ± take a × along where the scalar fuses.
+    /// Cost: 8 ×, 3 ±; 3 of the ± can be fused with a × if the scalar supports it.
     #[inline(always)]
     fn scale_inertial<T: ::branched_pendulum::Scalar>(
         constants: &Self::Constants<T>,

@@ -4,14 +4,15 @@
 /// The equations of one link, by articulated-body recursion in the plane
 /// (Featherstone, Rigid Body Dynamics Algorithms, 2008, ch. 7).
 ///
-/// Subtrees that hang at (ℓ, w) answer the acceleration **a** of their pivot with
-/// the force σ **a** + γ − N **a**. Their articulated inertia is σ − N; σ is the
-/// mass of those that are single links, and zero for others. J is the moment of
-/// inertia that the joint feels, b the first moment, κ the bias torque, f the force
-/// with the joint held; primed are N and γ of the subtree that the link carries,
-/// and the acceleration of its children's pivot. The code carries −**a**, the
-/// apparent gravity, has all masses over m and all lengths over l of the commonest
-/// leaf, and angles of a link by its own length.
+/// Subtrees that hang at (ℓ, w) respond to the acceleration **a** of their pivot
+/// with the force σ **a** + γ − N **a**. Their articulated inertia is σ − N; σ is
+/// the mass of those subtrees that are single links. J is the moment of inertia
+/// about the joint, b the first moment, κ the bias torque, f the force if the joint
+/// does not move. A prime marks N and γ of the subtree that begins with the link,
+/// and the acceleration of its children's pivot. The code uses −**a**, the apparent
+/// gravity. Masses and lengths are divided by the mass m and length l of the most
+/// frequent kind of leaf, and accelerations of a link are multiplied by its own
+/// unit of length.
 ///
 /// ```text
 /// S = m + σ
@@ -70,7 +71,7 @@ impl ::branched_pendulum::tree::LinkEquations for GeneralEquations {
     /// The response of a link without children: N and γ, and the torque of its joint on
     /// the parent where joints have torques.
     ///
-    /// Cost: 17 ×, 8 ±; 4 of the ± take a × along where the scalar fuses.
+    /// Cost: 17 ×, 8 ±; 4 of the ± can be fused with a × if the scalar supports it.
     #[inline(always)]
     fn leaf<T: ::branched_pendulum::Scalar>(
         constants: &Self::Constants<T>,
@@ -109,7 +110,7 @@ impl ::branched_pendulum::tree::LinkEquations for GeneralEquations {
     /// The response of a child about the pivot of its parent, whose motion is given: as
     /// it is where all children share one pivot.
     ///
-    /// Cost: 21 ×, 13 ±; 8 of the ± take a × along where the scalar fuses.
+    /// Cost: 21 ×, 13 ±; 8 of the ± can be fused with a × if the scalar supports it.
     #[inline(always)]
     fn attach<T: ::branched_pendulum::Scalar>(
         constants: &Self::Constants<T>,
@@ -165,8 +166,8 @@ impl ::branched_pendulum::tree::LinkEquations for GeneralEquations {
 
     /// The response of a link with children, and b/J and κ/J, which `accelerate` takes.
     ///
-    /// Cost: 18 ×, 21 ±, 1 ÷, 1 negation; 10 of the ± take a × along where the scalar
-    /// fuses.
+    /// Cost: 18 ×, 21 ±, 1 ÷, 1 negation; 10 of the ± can be fused with a × if the
+    /// scalar supports it.
     #[inline(always)]
     fn inner<T: ::branched_pendulum::Scalar>(
         constants: &Self::Constants<T>,
@@ -226,7 +227,7 @@ impl ::branched_pendulum::tree::LinkEquations for GeneralEquations {
 
     /// The apparent gravity at a child's pivot.
     ///
-    /// Cost: 4 ×, 4 ±; 1 of the ± take a × along where the scalar fuses.
+    /// Cost: 4 ×, 4 ±; 1 of the ± can be fused with a × if the scalar supports it.
     #[inline(always)]
     fn pivot<T: ::branched_pendulum::Scalar>(
         constants: &Self::Constants<T>,
@@ -245,7 +246,7 @@ impl ::branched_pendulum::tree::LinkEquations for GeneralEquations {
     /// The angular acceleration (in rad/s²) of a link with children, and what it hands
     /// them.
     ///
-    /// Cost: 7 ×, 4 ±; 3 of the ± take a × along where the scalar fuses.
+    /// Cost: 7 ×, 4 ±; 3 of the ± can be fused with a × if the scalar supports it.
     #[inline(always)]
     fn accelerate<T: ::branched_pendulum::Scalar>(
         constants: &Self::Constants<T>,
@@ -273,7 +274,7 @@ impl ::branched_pendulum::tree::LinkEquations for GeneralEquations {
 
     /// The angular acceleration (in rad/s²) of a link without children.
     ///
-    /// Cost: 10 ×, 8 ±; 5 of the ± take a × along where the scalar fuses.
+    /// Cost: 10 ×, 8 ±; 5 of the ± can be fused with a × if the scalar supports it.
     #[inline(always)]
     fn accelerate_leaf<T: ::branched_pendulum::Scalar>(
         constants: &Self::Constants<T>,

@@ -1,9 +1,9 @@
-//! The equations of one link, as the compiler derived and wrote them for links whose
-//! every property is a parameter (`equations/` beside `src/`): SI units, a row of
-//! constants for each link.
+//! The equations of one link, derived and written by the compiler for links whose properties are
+//! all parameters (`equations/` next to `src/`): in SI units, with a row of constants for each
+//! link.
 //!
-//! `cargo branched-pendulum emit equations equations/general.rs --output
-//! src/equations/general.rs` writes them anew, and a test tells when that is due.
+//! `cargo branched-pendulum emit equations equations/general.rs --output src/equations/general.rs`
+//! regenerates them, and a test fails if that is necessary.
 
 #[rustfmt::skip]
 mod by_rule;
@@ -11,26 +11,26 @@ mod by_rule;
 mod general;
 #[cfg(feature = "strips")]
 #[rustfmt::skip]
-mod held;
+mod prescribed;
 #[rustfmt::skip]
-mod rough;
+mod non_viscous;
 #[rustfmt::skip]
-mod straight;
+mod plain;
 
 pub(crate) use by_rule::{ByRuleEquations, ByRuleRow};
 pub(crate) use general::{GeneralBodyRow, GeneralEquations, GeneralRow};
+pub(crate) use non_viscous::{NonViscousBodyRow, NonViscousEquations, NonViscousRow};
+pub(crate) use plain::{PlainBodyRow, PlainEquations, PlainRow};
 #[cfg(feature = "strips")]
-pub(crate) use held::{HeldEquations, HeldRow};
-pub(crate) use rough::{RoughBodyRow, RoughEquations, RoughRow};
-pub(crate) use straight::{StraightBodyRow, StraightEquations, StraightRow};
+pub(crate) use prescribed::{PrescribedEquations, PrescribedRow};
 
-/// Forms of the equations, by what the links of a tree have.
+/// Forms of the equations, by the properties that links of a tree have.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) enum Form {
-    /// No torques in joints and no lateral offsets, and children share a pivot.
-    Straight,
-    /// All but friction that is not viscous.
+    /// Links without torques in joints and without lateral offsets, whose children share a pivot.
+    Plain,
+    /// Links with all properties except friction that is not viscous.
     General,
-    /// All.
-    Rough,
+    /// Links with all properties.
+    NonViscous,
 }

@@ -1,4 +1,4 @@
-//! The equations of a tree in phase, at one state.
+//! Evaluation of the equations of an in-phase tree at one state.
 
 use branched_pendulum::emitted::{Part, outlined};
 use branched_pendulum::scalar::{Dual, Scalar};
@@ -7,22 +7,22 @@ use branched_pendulum::tree::LinkEquations;
 use super::InPhaseTree;
 use super::merged::MergedLinks;
 use super::sweep::InPhaseSweep;
-use crate::equations::{Form, GeneralEquations, RoughEquations, StraightEquations};
+use crate::equations::{Form, GeneralEquations, NonViscousEquations, PlainEquations};
 
 impl<T: Scalar> InPhaseTree<T> {
-    /// Returns how many numbers an evaluation needs room for.
-    pub(super) fn room(&self) -> usize {
+    /// Returns the length of the buffer that an evaluation needs, in numbers.
+    pub(super) fn workspace_len(&self) -> usize {
         let of_link = match self.form {
-            Form::Straight => InPhaseSweep::<StraightEquations, T>::ROOM,
-            Form::General => InPhaseSweep::<GeneralEquations, T>::ROOM,
-            Form::Rough => InPhaseSweep::<RoughEquations, T>::ROOM,
+            Form::Plain => InPhaseSweep::<PlainEquations, T>::WORKSPACE_LEN,
+            Form::General => InPhaseSweep::<GeneralEquations, T>::WORKSPACE_LEN,
+            Form::NonViscous => InPhaseSweep::<NonViscousEquations, T>::WORKSPACE_LEN,
         };
         of_link * self.links()
     }
 
     /// Writes the rates of a state, in the arithmetic of `T`.
     #[inline(always)]
-    pub(super) fn write(&self, room: &mut [T], time: T, state: &[T], rates: &mut [T]) {
+    pub(super) fn write(&self, buffer: &mut [T], time: T, state: &[T], rates: &mut [T]) {
         let half = self.links() + self.differing();
         if [state.len(), rates.len()] != [2 * half; 2] {
             rates.fill(T::from_f64(f64::NAN));
@@ -31,18 +31,18 @@ impl<T: Scalar> InPhaseTree<T> {
         let (angles, velocities) = state.split_at(half);
         let (angle_rates, alpha) = rates.split_at_mut(half);
         angle_rates.copy_from_slice(velocities);
-        let evaluation = (room, time, [angles, velocities], alpha);
+        let evaluation = (buffer, time, [angles, velocities], alpha);
         match self.form {
-            Form::Straight => outlined::<STRAIGHT, T, _, _>(self, evaluation),
+            Form::Plain => outlined::<STRAIGHT, T, _, _>(self, evaluation),
             Form::General => outlined::<GENERAL, T, _, _>(self, evaluation),
-            Form::Rough => outlined::<ROUGH, T, _, _>(self, evaluation),
+            Form::NonViscous => outlined::<ROUGH, T, _, _>(self, evaluation),
         }
     }
 
     #[inline(always)]
     fn accelerate<E: LinkEquations>(
         &self,
-        (room, time, [angles, velocities], alpha): FormArguments<'_, T>,
+        (buffer, time, [angles, velocities], alpha): FormArguments<'_, T>,
     ) {
         let merged = &self.structure.merged.links;
         let torques = match self.between.is_empty() {
@@ -50,7 +50,7 @@ impl<T: Scalar> InPhaseTree<T> {
             false => self.torques(angles, velocities),
         };
         let drive = self.drive.as_ref().map(|drive| drive.root(time));
-        let mut sweep = InPhaseSweep::<E, T>::new(merged, &self.rows, drive, room);
+        let mut sweep = InPhaseSweep::<E, T>::new(merged, &self.rows, drive, buffer);
         for link in 0..merged.len() {
             let torque = torques.get(link).copied();
             let torque = torque.unwrap_or([T::from_f64(0.0); 2]);
@@ -72,7 +72,9 @@ impl<T: Scalar> InPhaseTree<T> {
         });
     }
 
-    /// Returns the value of a link among those of links and differences, and its change.
+    /// Returns the angle (or rate) of a link of the whole tree, and its derivative by the
+    /// difference. `values` contains the angles (or rates) of the merged links, then the
+    /// differences.
     #[inline(always)]
     fn of(&self, values: &[T], link: usize) -> [T; 2] {
         let MergedLinks { links, .. } = &self.structure.merged;
@@ -82,8 +84,8 @@ impl<T: Scalar> InPhaseTree<T> {
         }
     }
 
-    /// Returns the torques on each link by what acts between links of the whole tree, and their
-    /// changes.
+    /// Returns, for each link, the torque of springs and friction between links of the whole tree,
+    /// and its change by the differences.
     #[inline(always)]
     fn torques(&self, angles: &[T], velocities: &[T]) -> Vec<[T; 2]> {
         let zero = Dual::constant(T::from_f64(0.0));
@@ -109,10 +111,12 @@ impl<T: Scalar> InPhaseTree<T> {
     }
 }
 
-/// Room, time, angles and velocities, and the accelerations of an evaluation.
+/// Arguments of an evaluation: buffer, time, \[angles, velocities\], and the accelerations to
+/// write.
 type FormArguments<'a, T> = (&'a mut [T], T, [&'a [T]; 2], &'a mut [T]);
 
-/// The forms as parts of an evaluation: each is long, and a tree has one of them.
+/// Defines the evaluation of each form of the equations as a separate function, because each is
+/// long and a tree uses only one.
 macro_rules! part {
     ($($number:ident = $value:literal: $equations:ident),*) => {$(
         const $number: usize = $value;
@@ -128,4 +132,4 @@ macro_rules! part {
     )*};
 }
 
-part!(STRAIGHT = 0: StraightEquations, GENERAL = 1: GeneralEquations, ROUGH = 2: RoughEquations);
+part!(STRAIGHT = 0: PlainEquations, GENERAL = 1: GeneralEquations, ROUGH = 2: NonViscousEquations);

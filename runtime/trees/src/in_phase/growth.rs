@@ -1,4 +1,4 @@
-//! Growth of small differences between copies of a tree.
+//! Growth of small differences between copies of a tree that move in phase.
 
 use branched_pendulum::analysis::growth::{Grown, Growth, GrowthError, frequency_at_rest};
 use branched_pendulum::analysis::variational::Copies;
@@ -9,10 +9,11 @@ use super::InPhaseTree;
 use crate::error::TreeError;
 use crate::tree::PendulumTree;
 
-/// Growth of a small difference between two copies of a tree beside its motions in phase.
+/// Computes the growth of a small difference between two copies in a tree whose motion is otherwise
+/// in phase.
 ///
-/// Starts are states of the whole tree. The size of the difference is that of all links that
-/// differ, √(Σ δ²): all are turned as one at the start.
+/// Starts are states of the whole tree. The size of the difference is √(Σ δ²) over all links that
+/// differ; at the start all these differences are equal.
 ///
 /// # Examples
 ///
@@ -45,12 +46,13 @@ pub struct DifferenceGrowth {
 }
 
 impl DifferenceGrowth {
-    /// Returns the growth of a difference between the first two `copies` up to some horizons (s,
-    /// after the start), at a tolerance. The frequency of [`Growth`] is that of the difference
-    /// beside the tree at rest with all angles zero: NaN where it does not oscillate.
+    /// Prepares the computation of the growth of a difference between the first two `copies`, up to
+    /// each of the `horizons` (times in s after the start), with the given tolerance. The frequency
+    /// of [`Growth`] is set to the frequency of the difference in small motions about all angles
+    /// zero; it is NaN if the difference does not oscillate.
     ///
     /// # Errors
-    /// [`TreeError::NotInPhase`] of links that do not move alike.
+    /// [`TreeError::NotInPhase`] if the links do not stay in phase.
     pub fn new(
         tree: &PendulumTree,
         copies: &Copies,
@@ -66,25 +68,26 @@ impl DifferenceGrowth {
         Ok(Self { system, growth })
     }
 
-    /// Returns the same with another frequency (Hz) at which differences are looked at.
+    /// Sets the frequency (Hz) at which the size of differences is sampled, and by which their
+    /// rates are scaled.
     #[must_use]
     pub fn looked_at(mut self, frequency_hz: f64) -> Self {
         self.growth.frequency_hz = frequency_hz;
         self
     }
 
-    /// Returns what is asked for.
+    /// Returns the settings of the computation.
     pub fn growth(&self) -> &Growth {
         &self.growth
     }
 
-    /// Returns the motion of the copies in phase with their differences.
+    /// Returns the equations of the copies in phase together with their differences.
     pub fn system(&self) -> &InPhaseTree {
         &self.system
     }
 
-    /// Returns the rate (1/s) at which friction takes from the rate of a small difference at
-    /// rest, in the mean over the links that differ.
+    /// Returns the rate (1/s) at which friction damps the velocity of a small difference in small
+    /// motions, as a mean over the links that differ.
     pub fn decay(&self) -> f64 {
         let own = self.system.differing();
         let all = self.system.dimension() / 2;
@@ -97,11 +100,12 @@ impl DifferenceGrowth {
         -rates.iter().skip(2 * all - own).sum::<f64>() / own as f64
     }
 
-    /// Returns the growth after each start, on all cores and in lanes.
+    /// Returns the growth of the difference after each start, computed on all cores and in lanes of
+    /// vector registers.
     ///
     /// # Errors
-    /// [`TreeError::NotInPhase`] where the copies are not in phase at a start; each result of its own:
-    /// [`GrowthError`].
+    /// [`TreeError::NotInPhase`] if the copies are not in phase at a start; otherwise each start
+    /// has its own result, which may be a [`GrowthError`].
     pub fn in_lanes(
         &self,
         ensemble: &Ensemble<'_>,
@@ -114,8 +118,9 @@ impl DifferenceGrowth {
         Ok(self.growth.in_lanes(ensemble, &releases))
     }
 
-    /// Returns the growth in several trees, each after its own start, on all cores and in lanes,
-    /// which trees of one shape share that are looked at over equal horizons.
+    /// Returns the growth of the difference in several trees, each after its own start, computed on
+    /// all cores and in lanes of vector registers. Trees of the same shape with equal horizons are
+    /// computed together.
     ///
     /// # Errors
     /// As [`in_lanes`](Self::in_lanes).
@@ -123,7 +128,7 @@ impl DifferenceGrowth {
         ensemble: &Ensemble<'_>,
         cases: &[(&Self, State<f64>)],
     ) -> Result<Vec<Result<Grown, GrowthError>>, TreeError> {
-        // Starts of one tree follow each other: its constants stay in their lanes.
+        // Sorts the starts by trees, so that the constants of a tree stay in their lanes.
         let mut ordered: Vec<(&(&Self, State<f64>), usize)> = cases.iter().zip(0..).collect();
         ordered.sort_by_key(|((own, _), _)| (own.system.shape(), std::ptr::from_ref(*own)));
         let share = |one: &Self, other: &Self| {
@@ -149,7 +154,7 @@ impl DifferenceGrowth {
         Ok(all.into_iter().map(|(_, grown)| grown).collect())
     }
 
-    /// Returns the growth after one start, on this thread.
+    /// Returns the growth of the difference after one start, computed on this thread.
     ///
     /// # Errors
     /// As [`in_lanes`](Self::in_lanes).

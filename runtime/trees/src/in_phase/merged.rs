@@ -1,4 +1,4 @@
-//! Copies that move in phase as one link each.
+//! Merging of copies that move in phase: all copies of a link become one link.
 
 use std::collections::BTreeSet;
 use std::hash::{DefaultHasher, Hash, Hasher};
@@ -8,32 +8,32 @@ use branched_pendulum_codegen::scene::{FrictionLaw, PassiveTorques};
 
 use crate::numbers::LinkNumbers;
 
-/// A link of the motion in phase: one, or all copies of it.
+/// Link of an in-phase tree: a single link, or all of its copies merged.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct MergedLink {
-    /// The first of its links in the whole tree.
+    /// Index, in the whole tree, of the first link that is merged here.
     pub(super) first: usize,
-    /// Number of the parent among the merged links; of the root 0.
+    /// Index of the parent among the merged links; 0 for the root.
     pub(super) parent: usize,
-    /// Others hang from it.
+    /// True if the link has children.
     pub(super) carries: bool,
-    /// Number of its difference, where the first two copies differ in it.
+    /// Index of the link's difference, if the first two copies differ in this link.
     pub(super) difference: Option<usize>,
 }
 
-/// A link of the whole tree among merged ones.
+/// Link of the whole tree, as a part of a merged link.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Member {
-    /// The merged link that it is part of.
+    /// Index of the merged link that it belongs to.
     pub(super) merged: usize,
-    /// What the difference of that link adds to its angle for each unit: 1 in the first copy, −1
-    /// in the second one, zero in others.
+    /// Factor of the difference in this link's angle: 1 in the first copy, −1 in the second, 0 in
+    /// all others.
     pub(super) sign: f64,
-    /// Part of a small torque on it in that on the difference.
+    /// Factor of a small torque on this link in the torque on the difference.
     pub(super) share: f64,
 }
 
-/// The links of a motion in phase: a parent stands before its children.
+/// All links of an in-phase tree, parents before children.
 #[derive(Clone, Debug)]
 pub(super) struct MergedLinks {
     pub(super) links: Vec<MergedLink>,
@@ -42,7 +42,7 @@ pub(super) struct MergedLinks {
 }
 
 impl MergedLinks {
-    /// Merges the copies. Their state is that of angles followed by angular velocities.
+    /// Merges the copies; their groups refer to states of angles followed by angular velocities.
     pub(super) fn of(parents: &[Option<usize>], copies: &Copies) -> Self {
         let mut first: Vec<usize> = (0..parents.len()).collect();
         for group in copies.groups() {
@@ -87,9 +87,9 @@ impl MergedLinks {
         }
     }
 
-    /// Adds the differences of the first two copies, and of all that hangs from them. None of
-    /// links that are not merged, and of those that hang from two links in phase, which their
-    /// difference sets apart.
+    /// Adds the differences of the first two copies and of their subtrees. Returns `None` for links
+    /// that are not merged. It also returns `None` if the parents of the two copies are two
+    /// different links that are in phase, because the difference would separate these.
     pub(super) fn differing(&mut self, whole: &[LinkNumbers], copies: &Copies) -> Option<()> {
         let &[one, other, ..] = copies.groups().first()?.as_slice() else {
             return None;
@@ -125,8 +125,8 @@ impl MergedLinks {
         Some(())
     }
 
-    /// Returns the links with their constants: what copies have of mass, stiffness and friction is
-    /// added up.
+    /// Returns the merged links with their constants, which are the sums of the copies' masses,
+    /// stiffnesses and frictions.
     pub(super) fn numbers(&self, whole: &[LinkNumbers]) -> Vec<LinkNumbers> {
         let mut sums: Vec<Option<LinkNumbers>> = vec![None; self.links.len()];
         for (own, member) in whole.iter().zip(&self.members) {
@@ -142,7 +142,7 @@ impl MergedLinks {
         sums.into_iter().flatten().collect()
     }
 
-    /// Returns a number by which merged trees of other shapes differ.
+    /// Returns a number that differs between merged trees of different topology.
     pub(super) fn shape(&self) -> usize {
         let mut hasher = DefaultHasher::new();
         for member in &self.members {
@@ -152,7 +152,7 @@ impl MergedLinks {
     }
 }
 
-/// A link and all that hangs from it.
+/// Returns the indices of a link and of all links below it.
 fn carried(links: &[LinkNumbers], first: usize) -> Vec<usize> {
     let mut hangs = vec![false; links.len()];
     for (link, numbers) in links.iter().enumerate() {
@@ -165,14 +165,14 @@ fn carried(links: &[LinkNumbers], first: usize) -> Vec<usize> {
     (0..links.len()).filter(|&link| hangs[link]).collect()
 }
 
-/// A quantity that copies have in the ratio of all their masses, moments of inertia and torques:
-/// copies of unlike masses can move alike too.
+/// Returns a measure of a copy's size: masses, moments of inertia and torques of copies must be in
+/// the ratio of these. Copies whose masses differ by a common factor can move in phase too.
 fn size(links: &[LinkNumbers], own: &[usize]) -> f64 {
     let numbers = own.iter().filter_map(|&link| links.get(link));
     numbers.map(|link| (link.mass + link.inertia).high()).sum()
 }
 
-/// Adds the constants of a copy to those of others.
+/// Returns `sum` with the constants of a copy added.
 fn with(sum: &LinkNumbers, copy: &LinkNumbers) -> LinkNumbers {
     let (own, other) = (&sum.passive, &copy.passive);
     let law = |place: usize| FrictionLaw {

@@ -1,4 +1,4 @@
-//! Trees whose copies move in phase, with small differences between two of them.
+//! Trees whose copies move in phase, optionally with small differences between two of them.
 
 mod evaluation;
 mod growth;
@@ -12,7 +12,7 @@ use std::sync::Arc;
 use branched_pendulum::analysis::growth::TransverseSystem;
 use branched_pendulum::analysis::variational::Copies;
 use branched_pendulum::scalar::{Double, Dual, Scalar};
-use branched_pendulum::sectors::Sectors;
+use branched_pendulum::sectors::{Sector, Sectors};
 use branched_pendulum::system::{AbsoluteAngles, CastOde, LaneOde, Model, Ode, State, Workspace};
 
 pub use self::growth::DifferenceGrowth;
@@ -25,21 +25,21 @@ use crate::numbers::{self, LinkNumbers};
 use crate::rows;
 use crate::tree::{PendulumTree, constant, in_numbers};
 
-/// A tree whose copies move in phase, as one link for all copies of it: as heavy, as stiff and
-/// with as much friction as they are together. On demand it has small differences between two
-/// copies beside that motion ([`with_differences`](Self::with_differences)).
+/// A tree whose copies move in phase. All copies of a link are merged into one link with the sum of
+/// their masses, stiffnesses and frictions. Optionally it includes small differences between two
+/// copies ([`with_differences`](Self::with_differences)).
 ///
-/// The motion is a system of equations in the angles of its links and their rates, for every method and
-/// in lanes. With differences the state is the angles, the differences, the angular velocities
+/// The motion is a system of equations in the angles of its links and their rates, for every method
+/// and in lanes. With differences the state is the angles, the differences, the angular velocities
 /// and the rates of the differences, as that of a
 /// [`TransverseOde`](branched_pendulum::system::TransverseOde) of a compiled model, and
 /// [`Growth`](branched_pendulum::analysis::growth::Growth) and
-/// [`Floquet`](branched_pendulum::analysis::growth::Floquet) take it.
+/// [`Floquet`](branched_pendulum::analysis::growth::Floquet) accept it.
 ///
-/// Differences leave all that holds the copies as it is, since their forces on it are opposite. So
-/// their equations, which are linear, are those of one copy whose pivot moves in a given way: the
-/// recursion of the motion in phase gives them with dual numbers in that copy alone
-/// (physics (12.2)). Effort: that of the tree with one of each copies.
+/// Differences exert opposite forces on the links above the copies, and so do not change their
+/// motion. Therefore their equations, which are linear, are those of one copy whose pivot has a
+/// given motion: the recursion of the motion in phase computes them with dual numbers in that copy
+/// only (physics (12.2)). The effort is that of the tree with one of each copies.
 ///
 /// # Examples
 ///
@@ -81,27 +81,28 @@ use crate::tree::{PendulumTree, constant, in_numbers};
 pub struct InPhaseTree<T = f64> {
     structure: Arc<Structure>,
     form: Form,
-    /// Constants of the equations, a row for each link.
+    /// Constants of the equations, one row per link.
     rows: Vec<T>,
-    /// Acceleration of the root's pivot against gravity.
+    /// Acceleration of the root's pivot that is equivalent to gravity.
     above: T,
     drive: Option<Courses<T>>,
-    /// Of the whole tree, in numbers with their changes.
+    /// Springs and friction between links of the whole tree, in dual numbers that carry the change
+    /// by the differences.
     between: Between<Dual<T, 1>>,
 }
 
-/// What merged trees on all scalars share.
+/// Parts of an in-phase tree that do not depend on the scalar type.
 #[derive(Clone, Debug)]
 struct Structure {
     merged: MergedLinks,
-    /// Of the whole tree.
+    /// Links of the whole tree.
     links: Vec<LinkNumbers>,
     shape: usize,
 }
 
 impl PendulumTree<f64> {
-    /// Returns all copies in the tree, as parts of a state of angles followed by angular
-    /// velocities: groups are empty where there are none.
+    /// Returns all copies in the tree, as groups of components of states (angles followed by
+    /// angular velocities). There are no groups if the tree has no copies.
     pub fn all_copies(&self) -> Copies {
         let means = self.sectors().first();
         let means = means.into_iter().flat_map(|means| means.coordinates());
@@ -114,12 +115,39 @@ impl PendulumTree<f64> {
         Copies::new(angles.iter().cloned().chain(rates).collect())
     }
 
-    /// Returns the motion in which copies are in phase. Copies that
-    /// [`Copies::groups`] does not name move each in its own way.
+    /// Returns the links that are copies nearest to the root. None for a tree without copies.
+    pub fn first_copies(&self) -> Option<Vec<usize>> {
+        let all = self.sectors();
+        let first = all.iter().find(|sector| sector.name() != "in_phase")?;
+        let weights = first.coordinates().first()?.weights();
+        // The differences of a set of copies follow each other; that of the last one has all.
+        let is_wider = |sector: &&Sector| {
+            let own = sector
+                .coordinates()
+                .first()
+                .map_or(&[][..], |own| own.weights());
+            weights
+                .iter()
+                .all(|(link, _)| own.iter().any(|(other, _)| other == link))
+        };
+        let widest = all
+            .iter()
+            .filter(is_wider)
+            .filter_map(|sector| sector.coordinates().first());
+        let widest = widest.filter(|own| own.weights().iter().any(|(_, weight)| *weight < 0.0));
+        let links = widest
+            .max_by_key(|own| own.weights().len())?
+            .weights()
+            .iter();
+        Some(links.map(|(link, _)| *link).collect())
+    }
+
+    /// Returns the motion in which copies are in phase. Links that are in no group of
+    /// [`Copies::groups`] move independently.
     ///
     /// # Errors
-    /// [`TreeError::NotInPhase`] where links are no copies, or do not move alike when they start
-    /// alike.
+    /// [`TreeError::NotInPhase`] if links are not copies of each other, or do not stay in phase
+    /// after a start in phase.
     pub fn in_phase(&self, copies: &Copies) -> Result<InPhaseTree, TreeError> {
         let system = AbsoluteAngles(self);
         let rest = State::new(0.0, vec![0.0; system.dimension()]);
@@ -151,13 +179,14 @@ impl PendulumTree<f64> {
 }
 
 impl<T: Scalar> InPhaseTree<T> {
-    /// Returns the same motion with small differences between the first two `copies` beside it:
-    /// half that between their angles, and between those of all that hangs from them. Other
-    /// copies may be in phase besides.
+    /// Returns the same tree with small differences between the first two `copies`: half the
+    /// difference between their angles, and between the angles of the links below them. Further
+    /// copies may be in phase too.
     ///
     /// # Errors
-    /// [`TreeError::NotInPhase`] of links that are not in phase here, and of those that hang from
-    /// two links in phase, which their difference sets apart.
+    /// [`TreeError::NotInPhase`] if the links are not in phase in this tree, or if the parents of
+    /// the two copies are two different links that are in phase, because the difference would
+    /// separate these.
     pub fn with_differences(&self, copies: &Copies) -> Result<Self, TreeError> {
         let mut structure = Structure::clone(&self.structure);
         let Structure { merged, links, .. } = &mut structure;
@@ -169,18 +198,18 @@ impl<T: Scalar> InPhaseTree<T> {
         })
     }
 
-    /// Returns the number of links: copies that move in phase are one.
+    /// Returns the number of links, with copies in phase counted as one.
     pub fn links(&self) -> usize {
         self.structure.merged.links.len()
     }
 
-    /// Returns the number of differences; zero without any.
+    /// Returns the number of differences; zero if there are none.
     fn differing(&self) -> usize {
         self.structure.merged.differences
     }
 
-    /// Returns the angles of all links of the whole tree at those of the links in phase, or their
-    /// rates likewise. Links without a given value have NaN.
+    /// Returns the angles (or their rates) of all links of the whole tree, given those of the
+    /// merged links. NaN for links whose value is missing.
     pub fn whole(&self, own: &[T]) -> Vec<T> {
         let value = |member: &Member| own.get(member.merged).copied();
         let members = self.structure.merged.members.iter();
@@ -201,9 +230,9 @@ impl<T: Scalar> InPhaseTree<T> {
 }
 
 impl InPhaseTree<f64> {
-    /// Returns the angles of the links in phase at those of all links of the whole tree, or their
-    /// rates likewise: the inverse of [`whole`](Self::whole). None for another number of links,
-    /// and where copies differ.
+    /// Returns the angles (or their rates) of the merged links, given those of all links of the
+    /// whole tree: the inverse of [`whole`](Self::whole). `None` if the number of links is wrong or
+    /// copies differ.
     pub fn of_whole(&self, whole: &[f64]) -> Option<Vec<f64>> {
         let MergedLinks { links, members, .. } = &self.structure.merged;
         if whole.len() != members.len() {
@@ -212,16 +241,16 @@ impl InPhaseTree<f64> {
         let own = links.iter().map(|link| whole.get(link.first).copied());
         let own: Vec<f64> = own.collect::<Option<_>>()?;
         let is_alike = |(member, value): (&Member, &f64)| {
-            // What is no number is left to the integration.
+            // Accepts NaN, which the integration will report.
             let own = own.get(member.merged);
             own.is_some_and(|own| own == value || own.is_nan() && value.is_nan())
         };
         members.iter().zip(whole).all(is_alike).then_some(own)
     }
 
-    /// Returns the state in phase of a state of all links, angles followed by angular velocities;
-    /// all differences are 1 and at rest. None for a state of another length, and where copies
-    /// are not in one state.
+    /// Converts a state of the whole tree (angles, then angular velocities) to a state of this
+    /// tree, in which all differences are 1 and their rates 0. `None` if the length is wrong or
+    /// copies are not in phase.
     pub fn start(&self, whole: &State<f64>) -> Option<State<f64>> {
         let (theta, omega) = whole.values.split_at(whole.values.len() / 2);
         let differences = |size: f64| vec![size; self.differing()];
@@ -241,17 +270,17 @@ impl<T: Scalar> Ode<T> for InPhaseTree<T> {
     }
 
     fn rates_with(&self, workspace: &mut Workspace<T>, time: T, state: &[T], rates: &mut [T]) {
-        let (room, _) = workspace.with_inner(self.room());
-        self.write(room, time, state, rates);
+        let (buffer, _) = workspace.with_inner(self.workspace_len());
+        self.write(buffer, time, state, rates);
     }
 }
 
-/// A tree in the lanes of one thread, with room for its evaluations.
+/// An in-phase tree in the lanes of one thread, with a buffer for its evaluations.
 #[allow(unreachable_pub)]
 #[derive(Debug)]
 pub struct InPhaseLanes<T> {
     tree: InPhaseTree<T>,
-    room: RefCell<Vec<T>>,
+    buffer: RefCell<Vec<T>>,
 }
 
 impl<T: Scalar> LaneOde<T> for InPhaseTree<T> {
@@ -259,14 +288,14 @@ impl<T: Scalar> LaneOde<T> for InPhaseTree<T> {
 
     fn on_scalar<S: Scalar>(&self, convert: impl Fn(T) -> S) -> InPhaseLanes<S> {
         let tree = self.cast_to(&convert);
-        let room = RefCell::new(vec![S::from_f64(0.0); tree.room()]);
-        InPhaseLanes { tree, room }
+        let buffer = RefCell::new(vec![S::from_f64(0.0); tree.workspace_len()]);
+        InPhaseLanes { tree, buffer }
     }
 
     #[inline(always)]
     fn rates_of<S: Scalar>(system: &InPhaseLanes<S>, time: S, state: &[S], rates: &mut [S]) {
-        let mut room = system.room.borrow_mut();
-        system.tree.write(&mut room, time, state, rates);
+        let mut buffer = system.buffer.borrow_mut();
+        system.tree.write(&mut buffer, time, state, rates);
     }
 
     fn shape(&self) -> usize {

@@ -1,5 +1,5 @@
-//! The way through a tree whose copies are in phase: plain numbers above the copies that differ,
-//! numbers with the change by their difference within.
+//! Evaluation of an in-phase tree, link by link: plain numbers are used above the copies that
+//! differ, and within these copies numbers that carry their change by the difference.
 
 use std::marker::PhantomData;
 
@@ -8,8 +8,8 @@ use branched_pendulum::tree::{LinkEquations, LinkMotion, RootDrive, Row};
 
 use super::merged::MergedLink;
 
-/// A number with what a small difference changes it by: a plain one for links that it leaves as
-/// they are.
+/// A number with its derivative by a small difference; or a plain number, for links that the
+/// difference does not affect.
 trait Changed<T>: Scalar {
     fn of(value: T, change: T) -> Self;
 
@@ -35,7 +35,7 @@ impl<T: Scalar> Changed<T> for T {
     }
 }
 
-/// A number that changes.
+/// A number with its change.
 type WithChange<T> = Dual<T, 1>;
 
 impl<T: Scalar> Changed<T> for WithChange<T> {
@@ -58,72 +58,74 @@ impl<T: Scalar> Changed<T> for WithChange<T> {
     }
 }
 
-/// One evaluation. Each number of a link is followed by its change.
+/// One evaluation of an in-phase tree. Each number of a link is followed by its change.
 pub(super) struct InPhaseSweep<'a, E, T> {
     links: &'a [MergedLink],
-    /// A row of constants for each link.
+    /// Constants, one row for each link.
     rows: &'a [T],
     drive: Option<RootDrive<T>>,
-    room: &'a mut [T],
+    buffer: &'a mut [T],
     equations: PhantomData<E>,
 }
 
-/// Places of a link's numbers in its room.
+/// Offset of the angle within a link's numbers.
 const ANGLE: usize = 0;
 const RATE: usize = 2;
 const TORQUE: usize = 4;
 const SINE: usize = 6;
 const COSINE: usize = 8;
-/// Responses of the children.
+/// Offset of the sums of the children's responses within a link's numbers.
 const SUMS: usize = 10;
 
 impl<'a, E: LinkEquations, T: Scalar> InPhaseSweep<'a, E, T> {
-    /// Place of what is kept for the way down.
+    /// Offset, within a link's numbers, of the numbers that the upward pass keeps for the downward
+    /// pass.
     const ELIMINATION: usize = SUMS + 2 * <E::Sums<T> as Row<T>>::LENGTH;
 
-    /// Place of what children are handed on the way down.
+    /// Offset, within a link's numbers, of the numbers that the downward pass passes to children.
     const CARRIED: usize = Self::ELIMINATION + 2 * <E::Elimination<T> as Row<T>>::LENGTH;
 
-    /// Numbers of a link.
-    pub(super) const ROOM: usize = Self::CARRIED + 2 * <E::Carried<T> as Row<T>>::LENGTH;
+    /// Number of values per link in the buffer.
+    pub(super) const WORKSPACE_LEN: usize = Self::CARRIED + 2 * <E::Carried<T> as Row<T>>::LENGTH;
 
-    /// There is a row of constants for each link, and room for its numbers.
+    /// Creates an evaluation, given a row of constants per link and a buffer for the links'
+    /// numbers.
     #[inline(always)]
     pub(super) fn new(
         links: &'a [MergedLink],
         rows: &'a [T],
         drive: Option<RootDrive<T>>,
-        room: &'a mut [T],
+        buffer: &'a mut [T],
     ) -> Self {
         Self {
             links,
             rows,
             drive,
-            room,
+            buffer,
             equations: PhantomData,
         }
     }
 
-    /// Sets the state of a link: its angle, its angular velocity and the torque on it from
-    /// elsewhere, each with its change.
+    /// Sets angle, angular velocity and external torque of a link, each with its change.
     #[inline(always)]
     pub(super) fn set(&mut self, link: usize, state: [[T; 2]; 3]) {
         let zero = T::from_f64(0.0);
         let [[angle, change], ..] = state;
         let (sine, cosine) = angle.sin_cos();
-        let room = &mut self.room[link * Self::ROOM..][..Self::ELIMINATION];
+        let buffer = &mut self.buffer[link * Self::WORKSPACE_LEN..][..Self::ELIMINATION];
         for (place, [value, change]) in [ANGLE, RATE, TORQUE].into_iter().zip(state) {
-            (room[place], room[place + 1]) = (value, change);
+            (buffer[place], buffer[place + 1]) = (value, change);
         }
-        (room[SINE], room[SINE + 1]) = (sine, cosine * change);
-        (room[COSINE], room[COSINE + 1]) = (cosine, -(sine * change));
-        for sum in &mut room[SUMS..] {
+        (buffer[SINE], buffer[SINE + 1]) = (sine, cosine * change);
+        (buffer[COSINE], buffer[COSINE + 1]) = (cosine, -(sine * change));
+        for sum in &mut buffer[SUMS..] {
             *sum = zero;
         }
     }
 
-    /// From the last link to the root: responses, added to the sums of the parents. Those of the
-    /// copies that differ have no change on what holds them: it is opposite in both.
+    /// Makes the upward pass, from the last link to the root: computes responses and adds them to
+    /// the sums of the parents. The copies that differ add no change to their parent, because their
+    /// changes are opposite.
     #[inline(always)]
     pub(super) fn up(&mut self) {
         for link in (0..self.links.len()).rev() {
@@ -157,7 +159,8 @@ impl<'a, E: LinkEquations, T: Scalar> InPhaseSweep<'a, E, T> {
         }
     }
 
-    /// From the root to the last link: gives the angular acceleration of each, and its change.
+    /// Makes the downward pass, from the root to the last link: computes the angular acceleration
+    /// of each link and its change, and passes both to `alpha`.
     #[inline(always)]
     pub(super) fn down(&mut self, root: [T; 2], mut alpha: impl FnMut(usize, T, T)) {
         for link in 0..self.links.len() {
@@ -232,7 +235,7 @@ impl<'a, E: LinkEquations, T: Scalar> InPhaseSweep<'a, E, T> {
     #[inline(always)]
     fn read<V: Changed<T>, R: Row<V>>(&self, link: usize, place: usize) -> R {
         let mut row = R::filled(V::from_f64(0.0));
-        let own = &self.room[link * Self::ROOM + place..][..2 * R::LENGTH];
+        let own = &self.buffer[link * Self::WORKSPACE_LEN + place..][..2 * R::LENGTH];
         for (number, pair) in row.as_mut().iter_mut().zip(own.chunks_exact(2)) {
             *number = V::of(pair[0], pair[1]);
         }
@@ -241,7 +244,7 @@ impl<'a, E: LinkEquations, T: Scalar> InPhaseSweep<'a, E, T> {
 
     #[inline(always)]
     fn write<V: Changed<T>, R: Row<V>>(&mut self, link: usize, place: usize, row: &R) {
-        let own = &mut self.room[link * Self::ROOM + place..][..2 * R::LENGTH];
+        let own = &mut self.buffer[link * Self::WORKSPACE_LEN + place..][..2 * R::LENGTH];
         for (number, pair) in row.as_ref().iter().zip(own.chunks_exact_mut(2)) {
             (pair[0], pair[1]) = (number.value(), number.change());
         }
@@ -289,7 +292,7 @@ impl<'a, E: LinkEquations, T: Scalar> InPhaseSweep<'a, E, T> {
             joint_angle,
             joint_rate,
             outside_torque: self.number(link, TORQUE),
-            held: V::from_f64(0.0),
+            prescribed: V::from_f64(0.0),
         }
     }
 }

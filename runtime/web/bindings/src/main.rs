@@ -1,4 +1,5 @@
-//! Writes the JavaScript module of a compiled WebAssembly file: `bindings FILE FOLDER`.
+//! Command line program that writes the JavaScript module of a compiled WebAssembly file: `bindings
+//! FILE FOLDER`.
 
 use std::error::Error;
 use std::fs;
@@ -28,7 +29,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// Leaves out lines that are comments alone: nobody reads them in a browser.
+/// Removes lines that contain only a comment, which nobody reads in a browser.
 fn without_comments(module: &str) -> String {
     let mut is_inside = false;
     let mut kept = String::with_capacity(module.len());

@@ -1,6 +1,7 @@
 //! Descriptions with a mistake, at least one for each message of the front end.
 
 mod asked;
+mod normal_form;
 mod tree;
 
 /// The name of a golden and the source with the mistake.
@@ -8,7 +9,7 @@ pub type Mistake = (&'static str, &'static str);
 
 /// All of them.
 pub fn mistakes() -> impl Iterator<Item = Mistake> {
-    [tree::MISTAKES, asked::MISTAKES]
+    [tree::MISTAKES, asked::MISTAKES, normal_form::MISTAKES]
         .into_iter()
         .flatten()
         .copied()

@@ -205,6 +205,13 @@ pub(super) const MISTAKES: &[Mistake] = &[
     _x: rod(mass = 1, length = 1),
 ])] struct Pendulum;",
     ),
+    (
+        "rust_constant",
+        "#[branched_pendulum(gravity = G, a: rod(mass = std::f64::consts::PI, length = ::mine::MASS_1) [
+    b: rod(mass = 2 * crate::M, length = 1 + Self::L),
+    c: rod(mass = L_2 / 2, length = 1),
+])] struct Pendulum;",
+    ),
     // Links.
     (
         "unknown_shape",
@@ -266,6 +273,25 @@ pub(super) const MISTAKES: &[Mistake] = &[
         "not_a_count",
         "#[branched_pendulum(gravity = 9.8,
     a: generations(count = 0, branching = n, shape = rod, mass = 1, length = 1)
+)] struct Pendulum;",
+    ),
+    (
+        "open_branching",
+        "#[branched_pendulum(gravity = 9.8,
+    trunk: rod(mass = 1, length = 1) [
+        a: generations(count = 4, branching = 2, open = 2, shape = rod, mass = 1, length = 1),
+        b: generations(count = 4, branching = 3, open = 1, shape = rod, mass = 1, length = 1),
+        c: generations(count = 33, branching = 2, open = 1, shape = rod, mass = 1, length = 1),
+        d: generations(count = 4, branching = 2, open = 1, shape = rod, mass = 1, length = 1),
+    ]
+)] struct Pendulum;",
+    ),
+    (
+        "open_combined",
+        "#[branched_pendulum(gravity = 9.8,
+    a: generations(count = 3, branching = 2, open = 1, shape = rod, mass = 1, length = 1),
+    between(a_1, a_3_2, spring = 1), guy(a_2_1, at = 1, to = (1, 1), spring = 1), siblings(a_1, spring = 1),
+    emit(symmetric),
 )] struct Pendulum;",
     ),
     (

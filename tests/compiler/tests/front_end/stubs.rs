@@ -3,6 +3,7 @@
 
 use std::collections::BTreeMap;
 
+use branched_pendulum_codegen::functions::is_method;
 use branched_pendulum_codegen::{expand, stages};
 use branched_pendulum_compiler_tests::source::{attributed_struct, fixture};
 use proc_macro2::TokenStream;
@@ -45,6 +46,20 @@ fn traits(tokens: TokenStream) -> Vec<String> {
     named.filter_map(|(_, path, _)| last(path)).collect()
 }
 
+/// Names of the methods in implementations of traits.
+fn trait_methods(tokens: TokenStream) -> Vec<String> {
+    let file: syn::File = syn::parse2(tokens).expect("it is Rust");
+    let blocks = file.items.into_iter().filter_map(|item| match item {
+        syn::Item::Impl(block) if block.trait_.is_some() => Some(block.items),
+        _ => None,
+    });
+    let functions = blocks.flatten().filter_map(|member| match member {
+        syn::ImplItem::Fn(function) => Some(function.sig.ident.to_string()),
+        _ => None,
+    });
+    functions.collect()
+}
+
 #[test]
 fn they_have_the_functions_and_traits_of_models() {
     let mut budgets = 0;
@@ -58,6 +73,7 @@ fn they_have_the_functions_and_traits_of_models() {
         "generations",
         "series",
         "unequal",
+        "blades",
     ] {
         let source = std::fs::read_to_string(fixture(&format!("scenes/{scene}.rs")))
             .expect("the fixture exists");
@@ -85,6 +101,9 @@ fn they_have_the_functions_and_traits_of_models() {
                 budgets += 1;
                 assert_eq!(*stub_result, result, "{name} of {scene}");
             }
+        }
+        for method in trait_methods(wrong.clone()) {
+            assert!(is_method(&method), "no observable may be called {method}");
         }
         let stub = traits(wrong);
         for name in traits(right.tokens) {

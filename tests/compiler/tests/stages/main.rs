@@ -9,6 +9,7 @@ mod ladder;
 mod languages;
 mod lengths;
 mod loops;
+mod owned_files;
 mod pages;
 mod passes;
 mod prose;

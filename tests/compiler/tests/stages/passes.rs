@@ -7,7 +7,8 @@ use branched_pendulum_codegen::program::{Pass, Program, lower};
 use branched_pendulum_compiler_tests::random::Random;
 use branched_pendulum_compiler_tests::source::scene;
 
-const SCENES: [&str; 9] = [
+const SCENES: [&str; 10] = [
+    "blades",
     "chain",
     "driven",
     "driven_series",
@@ -35,6 +36,7 @@ fn values(program: &Program) -> Vec<(String, Vec<f64>)> {
         let input = |argument: Argument, index: usize| match argument {
             Argument::Time => time,
             Argument::Theta | Argument::Coordinates | Argument::Absolute => numbers[0][index],
+            Argument::Actions => 1e-2 * (2.0 + numbers[0][index]),
             _ => numbers[1][index],
         };
         for entry in &program.entries {

@@ -27,6 +27,7 @@ fn emitted_prose_has_no_stray_brackets_and_lists() {
         "paper",
         "triplet",
         "unequal",
+        "blades",
         "nested",
         "observed",
         "driven",

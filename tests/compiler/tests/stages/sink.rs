@@ -17,7 +17,7 @@ fn short_accelerations_ask_at_once() {
     for name in ["paper", "nested"] {
         let code = pretty(scene(name).tokens);
         assert!(code.contains("T::sin_cos_each(theta)"), "{name}");
-        assert!(!code.contains("Turns::among"), "{name}");
+        assert!(!code.contains("SinCosPairs::among"), "{name}");
     }
 }
 
@@ -27,7 +27,7 @@ fn long_accelerations_ask_where_they_need() {
     let lines = evaluate(&code);
     let place = |what: &str| lines.iter().position(|line| line.contains(what));
     let asked: Vec<usize> = (0..lines.len())
-        .filter(|&line| lines[line].contains("turns.of("))
+        .filter(|&line| lines[line].contains("sin_cos.of("))
         .collect();
     // Fifteen angles, four together; the last ones when others are done.
     assert_eq!(asked.len(), 4);
@@ -67,5 +67,5 @@ fn longer_accelerations_ask_in_parts() {
             .iter()
             .any(|line| line.contains("accelerations_part_2"))
     );
-    assert_eq!(code.matches("turns.of(").count(), 8);
+    assert_eq!(code.matches("sin_cos.of(").count(), 8);
 }

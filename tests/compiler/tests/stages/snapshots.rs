@@ -159,6 +159,16 @@ fn paper() {
     );
 }
 
+/// The formulas of the paper's pendulum.
+#[test]
+fn blades() {
+    operations("blades");
+    functions(
+        "blades",
+        &["normal_form_frequencies", "normal_form_thresholds"],
+    );
+}
+
 /// Two copies with every law of friction.
 #[test]
 fn braked() {

@@ -5,7 +5,7 @@ use branched_pendulum::prelude::*;
 use branched_pendulum::sectors::{Normalisation, Sectors};
 use branched_pendulum::system::Workspace;
 use branched_pendulum::transfer::{
-    EnergyDefinition, Given, NonConservative, SectorBudget, SymmetricTree,
+    EnergyDefinition, NonConservative, SectorBudget, StateInput, SymmetricTree,
 };
 use branched_pendulum_compiler_tests::random::Random;
 use branched_pendulum_tests::oracle::Tree;
@@ -119,7 +119,7 @@ impl Budgets {
         [theta, omega]: [&[f64]; 2],
         place: &str,
     ) {
-        let (given, count) = (Given::Absolute { theta, omega }, tree.sectors().len());
+        let (given, count) = (StateInput::Absolute { theta, omega }, tree.sectors().len());
         let (mut workspace, mut budget) = (Workspace::new(), SectorBudget::new());
         let mut compared = Vec::new();
         for (definition, entry) in DEFINITIONS {
@@ -198,14 +198,14 @@ fn budgets_are_those_of_trees_at_run_time() {
             let place = format!("state {state} of tree {seed}");
             budgets.compare(&compiled, &tree, [&theta, &omega], &place);
             let (q, v) = (random.around_zero(n, 0.8), random.around_zero(n, 1.0));
-            let rates = Given::Rates {
+            let rates = StateInput::Rates {
                 coordinates: &q,
                 rates: &v,
             };
             let mut p = vec![0.0; n];
             tree.momenta(&mut workspace, rates, &mut p);
             let derived = compiled.evaluate("sector_transfers_amplitude_2", &[&q, &p]);
-            let given = Given::Momenta {
+            let given = StateInput::Momenta {
                 coordinates: &q,
                 momenta: &p,
             };
@@ -307,7 +307,7 @@ fn transfers_into_leaves_are_those_of_trees_at_run_time() {
         let mut random = Random::new(17);
         for _ in 0..20 {
             let (q, p) = (random.around_zero(n, 0.8), random.around_zero(n, 0.02));
-            let given = Given::Momenta {
+            let given = StateInput::Momenta {
                 coordinates: &q,
                 momenta: &p,
             };

@@ -1,7 +1,7 @@
 //! The paper's apparatus as a tree at run time.
 
 use branched_pendulum::system::Workspace;
-use branched_pendulum::transfer::{Given, SymmetricTree};
+use branched_pendulum::transfer::{StateInput, SymmetricTree};
 use branched_pendulum::{Transfer, TransferForm};
 use branched_pendulum_trees::PendulumTree;
 use serde_json::Value;
@@ -31,7 +31,7 @@ impl AtRunTime {
         terms: &Terms,
         [coordinates, momenta]: [&[f64]; 2],
     ) {
-        let given = Given::Momenta {
+        let given = StateInput::Momenta {
             coordinates,
             momenta,
         };

@@ -159,7 +159,13 @@ fn texts_at_run_time_are_answered_alike() {
         let diagnostics = report.diagnostics().iter();
         let problems = diagnostics.map(|diagnostic| diagnostic.message.problem());
         let texts = problems.map(|Problem { text, label, hint }| [text, label, hint]);
-        let compiled: BTreeSet<[String; 3]> = texts.collect();
+        // Names that no code is written with are free.
+        let is_shared = |[text, label, _]: &[String; 3]| {
+            !text.ends_with("is not a snake-case name")
+                && !label.starts_with("parameters have small letters")
+        };
+        let compiled: BTreeSet<[String; 3]> = texts.filter(is_shared).collect();
+        let own: BTreeSet<[String; 3]> = own.into_iter().filter(is_shared).collect();
         if own != compiled {
             differ.push((name, own, compiled));
         }

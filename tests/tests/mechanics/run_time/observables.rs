@@ -1,6 +1,6 @@
 //! Observables at run time, and their rates, against the programs that the compiler derives.
 
-use branched_pendulum::transfer::Given;
+use branched_pendulum::transfer::StateInput;
 use branched_pendulum_compiler_tests::random::Random;
 use branched_pendulum_trees::{PendulumTree, TreeError};
 
@@ -37,11 +37,11 @@ fn observables_agree_with_their_programs() {
             let n = tree.names().len();
             let (first, second) = (random.around_zero(n, 2.0), random.around_zero(n, 5.0));
             let given = match is_symmetric {
-                true => Given::Rates {
+                true => StateInput::Rates {
                     coordinates: &first,
                     rates: &second,
                 },
-                false => Given::Absolute {
+                false => StateInput::Absolute {
                     theta: &first,
                     omega: &second,
                 },

@@ -4,7 +4,7 @@
 use branched_pendulum::sectors::Sectors;
 use branched_pendulum::system::Workspace;
 use branched_pendulum::transfer::{
-    EnergyDefinition, Given, NonConservative, SectorBudget, SymmetricTree,
+    EnergyDefinition, NonConservative, SectorBudget, StateInput, SymmetricTree,
 };
 use branched_pendulum::{Transfer, TransferForm};
 use branched_pendulum_compiler_tests::random::Random;
@@ -38,7 +38,11 @@ fn parts(transfers: &[Transfer<f64>]) -> Vec<f64> {
 }
 
 /// W into all sectors by a form.
-fn transfers(tree: &SymmetricTree<f64>, form: TransferForm, given: Given<'_, f64>) -> Vec<f64> {
+fn transfers(
+    tree: &SymmetricTree<f64>,
+    form: TransferForm,
+    given: StateInput<'_, f64>,
+) -> Vec<f64> {
     let mut transfers = vec![Transfer::default(); tree.sectors().len()];
     tree.transfers(&mut Workspace::new(), form, given, &mut transfers);
     parts(&transfers)
@@ -106,7 +110,7 @@ fn budgets_of_random_trees_agree_with_their_programs() {
         for state in 0..3 {
             let (theta, omega) = (random.around_zero(n, 3.0), random.around_zero(n, 5.0));
             let inputs: [&[f64]; 2] = [&theta, &omega];
-            let given = Given::Absolute {
+            let given = StateInput::Absolute {
                 theta: &theta,
                 omega: &omega,
             };
@@ -176,12 +180,12 @@ impl<'a> Leaf<'a> {
         self.compiled.evaluate(&entry, inputs)
     }
 
-    fn own(&self, form: TransferForm, given: Given<'_, f64>) -> [f64; 2] {
+    fn own(&self, form: TransferForm, given: StateInput<'_, f64>) -> [f64; 2] {
         let all = transfers(self.tree, form, given);
         [all[2 * self.sector], all[2 * self.sector + 1]]
     }
 
-    fn power(&self, acting: NonConservative<'_, f64>, given: Given<'_, f64>) -> f64 {
+    fn power(&self, acting: NonConservative<'_, f64>, given: StateInput<'_, f64>) -> f64 {
         let mut powers = vec![0.0; self.tree.sectors().len()];
         let workspace = &mut Workspace::new();
         self.tree.powers(workspace, acting, given, &mut powers);
@@ -205,14 +209,14 @@ fn transfers_into_leaves_agree_with_their_programs() {
         let mut random = Random::new(seed);
         for leaf in Leaf::all(&compiled, &tree) {
             let (q, v) = (random.around_zero(n, 2.0), random.around_zero(n, 5.0));
-            let rates = Given::Rates {
+            let rates = StateInput::Rates {
                 coordinates: &q,
                 rates: &v,
             };
             let workspace = &mut Workspace::new();
             let mut p = vec![0.0; n];
             tree.momenta(workspace, rates, &mut p);
-            let momenta = Given::Momenta {
+            let momenta = StateInput::Momenta {
                 coordinates: &q,
                 momenta: &p,
             };
@@ -313,7 +317,7 @@ fn truncated_transfers_agree_with_their_programs() {
         let mut random = Random::new(17);
         for state in 0..10 {
             let (q, p) = (random.around_zero(n, 0.8), random.around_zero(n, 0.02));
-            let given = Given::Momenta {
+            let given = StateInput::Momenta {
                 coordinates: &q,
                 momenta: &p,
             };

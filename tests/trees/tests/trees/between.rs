@@ -5,7 +5,7 @@ use branched_pendulum::ensemble::Ensemble;
 use branched_pendulum::prelude::*;
 use branched_pendulum::sectors::{Normalisation, Sectors};
 use branched_pendulum::system::{CanonicalVariables, Workspace};
-use branched_pendulum::transfer::Given;
+use branched_pendulum::transfer::StateInput;
 use branched_pendulum::{Transfer, TransferForm};
 use branched_pendulum_trees::{PendulumTree, TreeError};
 
@@ -193,7 +193,7 @@ fn transfers_know_springs_between_siblings() {
     let mut errors = Vec::new();
     for size in [0.02, 0.01] {
         let (coordinates, momenta) = ([0.9, 0.4, size], [0.03, 0.01, 0.01 * size]);
-        let given = Given::Momenta {
+        let given = StateInput::Momenta {
             coordinates: &coordinates,
             momenta: &momenta,
         };
@@ -248,7 +248,7 @@ fn springs_within_sectors_have_energies_there() {
     let mut at = |time: f64| {
         let state = method.run(&system, &start, time).unwrap();
         let (theta, omega) = state.state.values.split_at(n);
-        let given = Given::Absolute { theta, omega };
+        let given = StateInput::Absolute { theta, omega };
         let mut energies = vec![[0.0; 2]; symmetric.sectors().len()];
         symmetric.energies(&mut workspace, given, &mut energies);
         let mut w = vec![Transfer::default(); energies.len()];
@@ -320,7 +320,7 @@ fn clauses_that_say_nothing_are_refused() {
         ),
         (
             "between(a, b, spring = 1), in_phase(b)",
-            "a link in phase stands for several",
+            "a link in phase represents several",
         ),
     ] {
         let found = PendulumTree::parse(&format!("{tree}, {clause}"))

@@ -5,7 +5,7 @@ use branched_pendulum::analysis::SectorModes;
 use branched_pendulum::analysis::growth::{
     Continuation, Floquet, Grown, Growth, GrowthError, frequency_at_rest,
 };
-use branched_pendulum::analysis::variational::linearised;
+use branched_pendulum::analysis::variational::{Copies, linearised};
 use branched_pendulum::prelude::*;
 use branched_pendulum::sectors::Sectors;
 use branched_pendulum::system::SymmetricCoordinates;
@@ -288,4 +288,86 @@ fn trees_in_lanes_grow_as_each_alone() {
         .iter()
         .map(|grown| grown.as_ref().unwrap().factors[1].value);
     assert!(factors.fold(0.0, f64::max) > 10.0);
+}
+
+/// The decay is that of a difference in which all links of one subtree turn as one and those of
+/// the other against them, by the equations of the whole tree.
+/// Light hands on arms fall faster than the arms return, so that the mean acceleration of equal
+/// displacements is not restoring. The differences oscillate nevertheless: their typical frequency
+/// is the root mean square of the three frequencies with opposite arms, by the modes of the tree.
+#[test]
+fn light_links_have_a_frequency_at_rest() {
+    for [mass_ratio, length_ratio] in [[0.25, 0.7], [0.3, 0.7], [0.1, 0.5]] {
+        let tree = PendulumTree::parse(&format!(
+            "gravity = 9.80665,
+             tree: generations(count = 3, branching = 2, shape = rod, mass = 0.12, length = 0.3,
+                 mass_ratio = {mass_ratio}, length_ratio = {length_ratio})"
+        ));
+        let tree = tree.expect("it is a tree");
+        let parents = [None, Some(0), Some(1), Some(1), Some(0), Some(4), Some(4)];
+        let arms = Copies::of_links(&parents, &[&[1, 4]]).expect("they are copies");
+        let grown =
+            DifferenceGrowth::new(&tree, &arms, vec![1.0], 1e-9).expect("they are in phase");
+        let modes = tree.modes(&[0.0; 7]).expect("it hangs");
+        let pairs = || modes.frequencies_hz.iter().zip(&modes.shapes);
+        let square = |(frequency, _): (&f64, &Vec<f64>)| frequency * frequency;
+        let arms = pairs().filter(|(_, shape)| shape[1] * shape[4] < -1e-6);
+        let arms: Vec<f64> = arms.map(square).collect();
+        assert_eq!(arms.len(), 2);
+        // Hands against each other, while their arms rest; one of two equal frequencies.
+        let hands = pairs().find(|(_, shape)| shape[0].abs() + shape[1].abs() < 1e-9);
+        let hands = hands.map(square).expect("hands swing against each other");
+        let expected = ((arms.iter().sum::<f64>() + hands) / 3.0).sqrt();
+        let own = grown.growth().frequency_hz;
+        assert!((own / expected - 1.0).abs() < 1e-9, "{own} {expected}");
+    }
+}
+
+#[test]
+fn decay_is_the_mean_over_the_links_that_differ() {
+    let twig = "twig: rod(mass = 0.2, length = 0.3, friction = 1e-3, drag = 2e-4)";
+    let two = format!("{twig} [leaf: rod(mass = 0.1, length = 0.2, friction = 3e-3)]");
+    let three = format!(
+        "{twig} [leaf: rod(mass = 0.1, length = 0.2, friction = 3e-3) [
+            tip: rod(mass = 0.05, length = 0.1, friction = 5e-4)
+        ]]"
+    );
+    let fork = format!(
+        "{twig} [left: rod(mass = 0.1, length = 0.2, friction = 3e-3),
+            right: rod(mass = 0.3, length = 0.1, drag = 2e-3)]"
+    );
+    for (subtree, links) in [(twig.to_owned(), 1), (two, 2), (three, 3), (fork, 3)] {
+        let text = format!(
+            "gravity = 9.81, stem: rod(mass = 1, length = 0.4, friction = 1e-2) [{subtree} * 2]"
+        );
+        let tree = PendulumTree::parse(&text).unwrap();
+        let copies = tree.all_copies();
+        let growth = DifferenceGrowth::new(&tree, &copies, vec![1.0], 1e-9).unwrap();
+        let n = tree.links();
+        assert_eq!(n, 1 + 2 * links);
+        // Links follow their parents.
+        let mut sign = vec![0.0; n];
+        for (link, name) in tree.names().iter().enumerate() {
+            sign[link] = match (name.as_str(), tree.properties_of(link).unwrap().parent) {
+                ("twig_1", _) => 1.0,
+                ("twig_2", _) => -1.0,
+                (_, Some(parent)) => sign[parent],
+                (_, None) => 0.0,
+            };
+        }
+        let alpha = tree.accelerations(0.0, &vec![0.0; n], &sign);
+        let lost: f64 = alpha
+            .iter()
+            .zip(&sign)
+            .map(|(alpha, sign)| -sign * alpha)
+            .sum();
+        let decay = lost / (2 * links) as f64;
+        // A twig that is braked speeds its leaf up: the mean may be negative.
+        assert!(decay.abs() > 1e-3, "{decay}");
+        let found = growth.decay();
+        assert!(
+            (found - decay).abs() < 1e-12 * decay.abs(),
+            "{text}: {found} {decay}"
+        );
+    }
 }

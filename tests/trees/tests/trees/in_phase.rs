@@ -240,7 +240,10 @@ fn links_that_do_not_move_alike_are_refused() {
     );
     let refused = unequal.in_phase(&unequal.all_copies()).unwrap_err();
     assert_eq!(refused, TreeError::NotInPhase);
-    assert!(refused.to_string().contains("move alike"), "{refused}");
+    assert!(
+        refused.to_string().contains("do not stay in phase"),
+        "{refused}"
+    );
     // One of them has a spring to the trunk's parent, and a chain has no copies.
     let held = parse(
         "trunk: rod(mass = 0.4, length = 0.3) [neck: rod(mass = 0.2, length = 0.2) [

@@ -4,12 +4,17 @@
 use branched_pendulum_advice as _;
 
 mod between;
+mod canonical;
 mod costs;
+mod equilibria;
 mod forms;
 mod growth;
 mod in_phase;
+mod inverse_dynamics;
+mod lineage;
 mod magnitudes;
 mod mechanics;
+mod normal_form;
 mod plain;
 mod prescribed;
 mod scales;

@@ -328,7 +328,7 @@ fn modes_are_those_of_an_equilibrium() {
         }
         let text = error.to_string();
         assert!(
-            text.contains("no equilibrium") && text.contains("`equilibrium`"),
+            text.contains("not an equilibrium") && text.contains("`equilibrium`"),
             "{text}"
         );
         let rest = tree.equilibrium(&aside[..n]).unwrap();

@@ -62,9 +62,12 @@ fn energies_change_as_the_budget_tells() {
     assert_eq!((tree.copies(), budget.scales()), (Some(&[1, 2, 3][..]), 3));
     for scale in 0..3 {
         let [rate] = rates.energy(scale).tangents;
-        let told = budget.received(scale) + budget.power(scale);
+        let reported = budget.received(scale) + budget.power(scale);
         let size = budget.received(scale).abs() + budget.power(scale).abs();
-        assert!((rate - told).abs() < 1e-12 * size, "{scale}: {rate} {told}");
+        assert!(
+            (rate - reported).abs() < 1e-12 * size,
+            "{scale}: {rate} {reported}"
+        );
     }
     let whole = |power: &dyn Fn(usize) -> f64| (0..3).map(power).sum::<f64>();
     let near = |own: f64, other: f64| assert!((own - other).abs() < 1e-13, "{own} {other}");

@@ -63,7 +63,7 @@ fn texts_that_are_no_tokens_or_too_much_are_refused() {
     assert!(message(&"[".repeat(100_000)).starts_with("error: "));
     let deep = format!("{}{}", "(".repeat(100_000), ")".repeat(100_000));
     let found = message(&deep);
-    assert!(found.starts_with("error: more than 64 levels of brackets"));
+    assert!(found.starts_with("error: brackets are nested more than 64 levels deep"));
     assert!(found.len() < 1000, "{}", found.len());
     let wrong = message(&"a = 1, ".repeat(100_000));
     assert!(wrong.ends_with("more errors") && wrong.len() < 100_000);
@@ -237,4 +237,97 @@ fn mutated_texts_give_trees_or_messages() {
 #[ignore = "takes a minute"]
 fn many_mutated_texts_give_trees_or_messages() {
     read(100_000, 2);
+}
+
+/// No code is written for trees at run time: their names are free.
+#[test]
+fn names_are_those_of_physicists() {
+    let text = "gravity = g,
+        Upper(mass = M, com = .084, inertia = I_2, joint = L) [
+            theBob: point(mass = m_Bob, length = .5e-1, spring = κ) * 2
+        ]";
+    let description = TreeDescription::parse(text).unwrap();
+    let names: Vec<&str> = description.parameters().collect();
+    for name in ["g", "L", "M", "I_2", "κ", "m_Bob"] {
+        assert!(names.contains(&name), "{name} {names:?}");
+    }
+    let values = [
+        ("g", 9.81),
+        ("L", 0.3),
+        ("M", 0.2),
+        ("I_2", 1e-3),
+        ("κ", 0.1),
+        ("m_Bob", 0.05),
+    ];
+    let tree = description.tree::<f64>(&values).unwrap();
+    assert_eq!(tree.names(), ["Upper", "theBob_1", "theBob_2"]);
+    let small = text.to_lowercase().replace('κ', "k");
+    let values = values.map(|(name, value)| (name.to_lowercase().replace('κ', "k"), value));
+    let values: Vec<(&str, f64)> = values.iter().map(|(name, x)| (name.as_str(), *x)).collect();
+    let other = TreeDescription::parse(&small)
+        .unwrap()
+        .tree::<f64>(&values)
+        .unwrap();
+    let state = [[0.3, -0.2, 1.0], [2.0, 0.1, -0.4]];
+    assert_eq!(
+        tree.accelerations(0.0, &state[0], &state[1]),
+        other.accelerations(0.0, &state[0], &state[1])
+    );
+    // Words of the grammar and of Rust, and names without a letter, are none.
+    for name in ["drive", "emit", "type", "_", "__"] {
+        let text = format!("gravity = 9.81, rod: rod(mass = {name}, length = 1)");
+        let error = TreeDescription::parse(&text).unwrap_err();
+        assert!(error.to_string().contains(name), "{error}");
+    }
+}
+
+#[test]
+fn numbers_may_begin_with_their_point() {
+    let mass = |number: &str| {
+        let text = format!("gravity = 9.81, a: rod(mass = {number}, length = (.25 + 3 * .25))");
+        let tree = PendulumTree::parse(&text).unwrap_or_else(|error| panic!("{error}"));
+        tree.properties_of(0).unwrap().mass
+    };
+    for (number, value) in [
+        (".1", 0.1),
+        (".25", 0.25),
+        ("1.5e-1", 0.15),
+        (".5e-1", 0.05),
+        ("2 * .1", 0.2),
+        ("-(-.3)", 0.3),
+        ("1. / .5", 2.0),
+        (".5^2", 0.25),
+    ] {
+        assert_eq!(mass(number), value, "{number}");
+    }
+    for number in ["..1", ".", ".1.2", ". x", ".1x"] {
+        let text = format!("gravity = 9.81, a: rod(mass = {number}, length = 1)");
+        assert!(PendulumTree::parse(&text).is_err(), "{number}");
+    }
+}
+
+#[test]
+fn the_name_of_a_file_is_recognised() {
+    for name in [
+        "swing.txt",
+        "trees/my swing",
+        r"C:\trees\swing.txt",
+        "./a.tree",
+        " y.dat ",
+    ] {
+        let error = PendulumTree::parse(name).unwrap_err().to_string();
+        assert!(error.contains("looks like the name of a file"), "{error}");
+        assert!(error.contains("help: pass the text in the file"), "{error}");
+    }
+    for text in [
+        "rod",
+        "gravity = 9.81",
+        "rod(mass = 1.5)",
+        "0.5",
+        "",
+        "a / b = 1",
+    ] {
+        let error = PendulumTree::parse(text).unwrap_err().to_string();
+        assert!(!error.contains("file"), "{error}");
+    }
 }

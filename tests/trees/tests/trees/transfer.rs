@@ -6,7 +6,7 @@ use branched_pendulum::scalar::{Double, Dual};
 use branched_pendulum::sectors::{Normalisation, Sectors};
 use branched_pendulum::system::Workspace;
 use branched_pendulum::transfer::{
-    EnergyDefinition, Given, NonConservative, SectorBudget, SymmetricTree,
+    EnergyDefinition, NonConservative, SectorBudget, StateInput, SymmetricTree,
 };
 use branched_pendulum::{Transfer, TransferForm};
 use branched_pendulum_trees::{PendulumTree, TreeDescription, TreeError};
@@ -76,7 +76,7 @@ fn budget<T: Scalar>(
     [theta, omega]: [&[T]; 2],
 ) -> SectorBudget<T> {
     let mut budget = SectorBudget::new();
-    let given = Given::Absolute { theta, omega };
+    let given = StateInput::Absolute { theta, omega };
     tree.budget(
         &mut Workspace::new(),
         definition,
@@ -115,20 +115,20 @@ fn energies_change_as_the_budget_tells() {
             NonConservative::Torques(&torques),
         ];
         for definition in DEFINITIONS {
-            let told = budget(&symmetric, definition, &acting, [&theta, &omega]);
+            let reported = budget(&symmetric, definition, &acting, [&theta, &omega]);
             let rates = budget(&dual, definition, &[], [&moving[0], &moving[1]]);
             let is_known = !symmetric.has_unequal_copies() || definition != DEFINITIONS[3];
-            let known = told.energies.iter().all(|energy| !energy.is_nan());
+            let known = reported.energies.iter().all(|energy| !energy.is_nan());
             assert_eq!(known, is_known);
             let size = |list: &[f64]| list.iter().fold(0.0_f64, |size, x| size.max(x.abs()));
-            let size = size(&told.transfers) + size(&told.powers);
+            let size = size(&reported.transfers) + size(&reported.powers);
             for (sector, rate) in rates.energies.iter().enumerate().filter(|_| is_known) {
                 let [rate] = rate.tangents;
-                let told = told.transfers[sector] + told.powers[sector];
-                let error = (rate - told).abs();
+                let reported = reported.transfers[sector] + reported.powers[sector];
+                let error = (rate - reported).abs();
                 assert!(
                     error < 1e-12 * size,
-                    "{definition:?} {sector}: {rate} {told}"
+                    "{definition:?} {sector}: {rate} {reported}"
                 );
             }
         }
@@ -161,7 +161,7 @@ fn energies_by_parseval_sum_up() {
         parseval.powers.iter().sum(),
         tree.friction_power(&theta, &omega),
     );
-    let given = Given::Absolute {
+    let given = StateInput::Absolute {
         theta: &theta,
         omega: &omega,
     };
@@ -196,7 +196,7 @@ fn growth_and_forcing_are_the_transfer() {
         potential: Double::from(0.0),
     };
     let mut exact = parts.clone().map(|part| vec![zero; part.len()]);
-    let given = Given::Absolute {
+    let given = StateInput::Absolute {
         theta: &theta,
         omega: &omega,
     };
@@ -205,7 +205,7 @@ fn growth_and_forcing_are_the_transfer() {
     symmetric.exact_transfers(workspace, given, whole);
     symmetric.growth(workspace, given, growth);
     symmetric.forcing(workspace, given, forcing);
-    let given = Given::Absolute {
+    let given = StateInput::Absolute {
         theta: &exact_theta,
         omega: &exact_omega,
     };
@@ -276,7 +276,7 @@ fn nothing_flows_into_differences_that_are_zero() {
         (theta[bough], omega[bough]) = (1.1, 0.4);
     }
     let mut transfers = vec![Transfer::default(); symmetric.sectors().len()];
-    let given = Given::Absolute {
+    let given = StateInput::Absolute {
         theta: &theta,
         omega: &omega,
     };
@@ -339,13 +339,13 @@ fn slices_of_other_lengths_are_answered_with_nan() {
     let [theta, omega, _] = state(symmetric.links());
     let count = symmetric.sectors().len();
     let (mut workspace, mut transfers) = (Workspace::new(), vec![Transfer::default(); count]);
-    let short = Given::Absolute {
+    let short = StateInput::Absolute {
         theta: &theta[1..],
         omega: &omega,
     };
     symmetric.exact_transfers(&mut workspace, short, &mut transfers);
     assert!(transfers.iter().all(|w| w.total().is_nan()));
-    let given = Given::Absolute {
+    let given = StateInput::Absolute {
         theta: &theta,
         omega: &omega,
     };

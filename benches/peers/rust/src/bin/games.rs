@@ -1,5 +1,6 @@
-//! The game engine's physics `rapier2d-f64` on the paper's pendulum: errors after 1 s and 10 s against the time that
-//! ten seconds take, with both kinds of its joints, beside our frames and methods in the same program.
+//! Compares the physics engine `rapier2d-f64` for games, with both kinds of its joints, with our
+//! frame stepping and integration methods on the paper's pendulum: errors after 1 s and 10 s, and
+//! the time for ten seconds of motion.
 
 use std::error::Error;
 use std::hint::black_box;
@@ -12,13 +13,14 @@ use branched_pendulum_peers::scenes::BranchedDouble;
 use branched_pendulum_peers::work_precision::reference::{REGULAR, states};
 use rapier2d_f64::prelude::*;
 
-/// Contenders take turns: so many, of which the median counts.
+/// Number of times that each contender runs, alternating with the others; the median counts.
 const ROUNDS: usize = 7;
-/// Ends of the motion, s.
+/// End times of the motion, in s.
 const ENDS: [f64; 2] = [1.0, 10.0];
 const GRAVITY: f64 = 9.80665;
 
-/// A link of the paper: parent, mass (kg), centre of mass (m), inertia (kg m²), place on its parent (m).
+/// A link of the paper's pendulum: parent, mass (kg), centre of mass (m), inertia (kg m²), position
+/// on its parent (m).
 struct Link(Option<usize>, f64, f64, f64, f64);
 
 const LINKS: [Link; 3] = [
@@ -35,7 +37,8 @@ enum Joints {
 
 type Angles = [f64; 3];
 
-/// The pendulum in a world of Rapier's, with the engine's own settings but for the step.
+/// Builds the pendulum in a world of Rapier, with the engine's default settings except for the
+/// step.
 fn world(
     joints: Joints,
     frame: f64,
@@ -85,11 +88,11 @@ fn world(
         bodies.push(own);
     }
     if let Joints::Multibody = joints {
-        // Its own coordinates begin at zero: relative angles, in the order of insertion.
+        // The engine's coordinates start at zero: relative angles, in the order of insertion.
         let index = world.multibody_joints.rigid_body_link(bodies[0])?.multibody;
         let multibody = world.multibody_joints.get_multibody_mut(index)?;
         multibody.forward_kinematics(&world.bodies, true);
-        // The engine damps every joint by 0.1 N m s by default.
+        // By default the engine damps every joint by 0.1 N m s.
         multibody.damping_mut().fill(0.0);
         let relative = LINKS.iter().zip(REGULAR);
         let relative =
@@ -101,7 +104,7 @@ fn world(
     Some((world, bodies))
 }
 
-/// Angles at both ends, and microseconds for all.
+/// Function that returns the angles at both end times, and the time for the whole motion in µs.
 type Run<'a> = Box<dyn Fn() -> Result<([Angles; 2], f64), Box<dyn Error>> + 'a>;
 
 fn rapier(joints: Joints, rate: u32, iterations: usize) -> Run<'static> {

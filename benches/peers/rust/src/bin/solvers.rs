@@ -1,5 +1,6 @@
-//! Times of ODE solvers of other crates for the motions of `integration-speed`, with our emitted
-//! accelerations, beside our methods in the same program: Dop853 of `ode_solvers`, Tsit45 of `diffsol`.
+//! Times of ODE solvers of other crates (Dop853 of `ode_solvers`, Tsit45 of `diffsol`) for the
+//! motions of `integration-speed`, with our emitted accelerations, and of our methods in the same
+//! program.
 
 use std::error::Error;
 use std::hint::black_box;
@@ -14,16 +15,17 @@ use diffsol::{NalgebraMat, OdeBuilder, OdeSolverMethod, OdeSolverStopReason, Vec
 use ode_solvers::dop_shared::OutputType;
 use ode_solvers::{SVector, System};
 
-/// Contenders take turns: so many, with so many repeats each.
+/// Number of times that each contender runs, alternating with the others, and number of repetitions
+/// each time.
 const ROUNDS: usize = 5;
 const REPEATS: usize = 5;
 
 type Measured = Result<Vec<Point>, Box<dyn Error>>;
-/// A method by its name.
+/// A method, with its name.
 type Contender<'a> = (&'static str, Box<dyn Fn() -> Measured + 'a>);
 
-/// As `points` of `integration-speed` measures ours: microseconds and the state at the end for a tolerance, or none
-/// where a method refuses it.
+/// Measures a method like `points` of `integration-speed`. `run` returns the time (µs) and the
+/// state at the end for a tolerance, or `None` if the method refuses the tolerance.
 fn scan(problem: &Problem, run: impl Fn(f64) -> Option<(f64, Vec<f64>)>) -> Measured {
     let point = |third: i32| {
         let tolerance = 10.0_f64.powf(f64::from(-third) / 3.0);
@@ -61,7 +63,8 @@ impl<P: Pendulum<f64>, const N: usize> System<f64, SVector<f64, N>> for Accelera
     }
 }
 
-/// The defaults of `ode_solvers`, but for more steps and ends alone.
+/// Runs `ode_solvers` with its default options, except for a higher limit on steps and output at
+/// the end only.
 fn ode_solvers<P: Pendulum<f64>, const N: usize>(
     pendulum: &P,
     problem: &Problem,
@@ -93,7 +96,8 @@ fn ode_solvers<P: Pendulum<f64>, const N: usize>(
     Some((micros, method.y_out().last()?.as_slice().to_vec()))
 }
 
-/// The defaults of `diffsol`, whose only explicit method this is. What is built once for a problem is not timed.
+/// Runs the only explicit method of `diffsol`, with its default options. Parts that are built once
+/// for a problem are not timed.
 fn diffsol<P: Pendulum<f64>>(
     pendulum: &P,
     problem: &Problem,

@@ -1,10 +1,10 @@
-//! Rounding errors of the contenders, beside their times.
+//! Rounding errors of the compared implementations.
 //!
-//! The reference is the textbook's dense system in double-double arithmetic, with
-//! the scene's decimals to 31 digits. Errors are told in units of the
-//! *conditioning bound* u |M⁻¹| (|M| |ω̇| + |b|), u half the distance from one to
-//! the next number, |M| and |b| the sums of the sizes of their terms: by so much,
-//! to first order, the accelerations change if each term changes by one rounding.
+//! The reference is the dense system in double-double arithmetic, with the decimal constants of the
+//! scene to 31 digits. Errors are in units of the *conditioning bound* u |M⁻¹| (|M| |ω̇| + |b|),
+//! where u is half the distance between 1 and the next larger number, and |M| and |b| are the sums
+//! of the magnitudes of their terms. To first order this is the change of the accelerations if each
+//! term is rounded once.
 
 use branched_pendulum::Pendulum;
 use branched_pendulum::scalar::{Double, Real, Scalar};
@@ -18,28 +18,28 @@ use super::scenes::{factorization, recursion};
 use super::states::random;
 use super::table::{self, Link};
 
-/// Worst errors of one scene in units of the bound, in the order of
-/// [`CONTENDERS`]; lanes have the bits of single states.
+/// Largest errors of one scene in units of the bound, in the order of [`CONTENDERS`]. Batches are
+/// left out, since their results are identical to those of single states.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Errors {
-    /// The scene.
+    /// Name of the scene.
     pub scene: &'static str,
     /// Number of its links.
     pub links: usize,
-    /// In units of the bound.
+    /// Largest errors, in units of the bound.
     pub worst: [Option<f64>; CONTENDERS.len()],
-    /// Medians, in units in the last place of the acceleration.
+    /// Median errors, in units in the last place of the acceleration.
     pub ulps: [Option<f64>; CONTENDERS.len()],
 }
 
-/// Accelerations with what a rounding of every term changes in them.
+/// Reference accelerations, with their change if every term is rounded once.
 struct Reference {
     alpha: Vec<Double>,
     sensitivity: DVector<f64>,
 }
 
 impl Reference {
-    /// `docs/physics.md`, section 1, and elimination.
+    /// Solves the system of `docs/physics.md`, section 1, by Gaussian elimination.
     fn new(links: &[Link<Double>], theta: &[f64], omega: &[f64]) -> Self {
         let n = links.len();
         let zero = Double::from_f64(0.0);
@@ -83,7 +83,7 @@ impl Reference {
     }
 }
 
-/// x with A x = b by elimination; A is symmetric and positive definite.
+/// Solves A x = b by Gaussian elimination, for a symmetric and positive definite A.
 fn solve(mut matrix: Vec<Vec<Double>>, mut right: Vec<Double>) -> Vec<Double> {
     let n = right.len();
     for k in 0..n {
@@ -107,7 +107,7 @@ fn solve(mut matrix: Vec<Vec<Double>>, mut right: Vec<Double>) -> Vec<Double> {
     right
 }
 
-/// Errors of one contender over all states and links.
+/// Errors of one implementation over all states and links.
 #[derive(Default)]
 struct Seen {
     worst: f64,
@@ -137,7 +137,7 @@ impl Seen {
     }
 }
 
-/// Measures all scenes, at `states` random states each, fewer of large trees.
+/// Measures the errors for all scenes, at `states` random states each; fewer for large trees.
 #[must_use]
 pub fn all(states: usize) -> Vec<Errors> {
     macro_rules! errors {
@@ -181,7 +181,7 @@ fn errors<const N: usize>(
     let angles = random(11, N, states, std::f64::consts::PI).by_state;
     let velocities = random(12, N, states, 9.0).by_state;
     for (theta, omega) in angles.iter().zip(&velocities) {
-        // Exact in single precision too.
+        // The values are exact in single precision too.
         let narrow = |values: &[f64]| values.iter().map(|&x| x as f32).collect::<Vec<_>>();
         let (narrow_theta, narrow_omega) = (narrow(theta), narrow(omega));
         let widen = |values: &[f32]| values.iter().map(|&x| f64::from(x)).collect::<Vec<_>>();

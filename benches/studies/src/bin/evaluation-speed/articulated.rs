@@ -1,22 +1,21 @@
-//! The articulated-body recursion for any tree, driven by its table:
-//! `docs/physics.md`, section 2; Featherstone, Rigid Body Dynamics Algorithms,
-//! 2008, ch. 7, in the plane.
+//! Articulated-body recursion for any tree, driven by a table of links: `docs/physics.md`, section
+//! 2; Featherstone, Rigid Body Dynamics Algorithms, 2008, ch. 7, in the plane.
 
 use super::table::{GRAVITY, Link};
 
-/// A tree and room for one evaluation.
+/// A tree, with the workspace of one evaluation.
 #[derive(Clone, Debug)]
 pub struct Articulated {
     links: Vec<Link>,
     bodies: Vec<Body>,
 }
 
-/// The answer of a subtree to its parent: force = Φ a + β at its pivot.
+/// Response of a subtree: the force at its pivot is Φ a + β for the pivot's acceleration a.
 #[derive(Clone, Copy, Debug, Default)]
 struct Body {
     sine: f64,
     cosine: f64,
-    /// Φ: xx, xy, yy.
+    /// Articulated inertia Φ, as xx, xy, yy.
     phi: [f64; 3],
     beta: [f64; 2],
     b: [f64; 2],
@@ -26,7 +25,7 @@ struct Body {
 }
 
 impl Articulated {
-    /// For a tree.
+    /// Allocates the workspace for a tree.
     #[must_use]
     pub fn new(links: &[Link]) -> Self {
         Self {
@@ -35,7 +34,7 @@ impl Articulated {
         }
     }
 
-    /// Angular accelerations.
+    /// Writes the angular accelerations.
     pub fn accelerations(&mut self, theta: &[f64], omega: &[f64], alpha: &mut [f64]) {
         for (i, (body, link)) in self.bodies.iter_mut().zip(&self.links).enumerate() {
             let (sine, cosine) = theta[i].sin_cos();
@@ -87,7 +86,7 @@ impl Articulated {
 }
 
 impl Body {
-    /// Adds a child that hangs at `lever`.
+    /// Adds the response of a child that hangs at the distance `lever` along the link.
     fn take(&mut self, child: &Body, lever: f64, omega: f64) {
         let (v, u) = ([self.cosine, self.sine], [self.sine, -self.cosine]);
         let [xx, xy, yy] = child.phi;

@@ -1,9 +1,9 @@
-//! The paper's pendulum as one writes it by hand: both children eliminated, the
-//! system's sine and cosine.
+//! The paper's pendulum as one would write it by hand: both children are eliminated, and sine and
+//! cosine are those of the standard library.
 
 use super::table::GRAVITY;
 
-/// Folded constants of the paper's pendulum.
+/// The paper's pendulum with its constants computed beforehand.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ByHand {
     m1: f64,

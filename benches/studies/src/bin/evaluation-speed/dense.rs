@@ -1,10 +1,10 @@
-//! The textbook: the whole mass matrix, Cholesky.
+//! The textbook method: the whole mass matrix is factorised by Cholesky's method.
 
 use nalgebra::{DMatrix, DVector};
 
 use super::table::{GRAVITY, Link, couplings};
 
-/// A(θ) = A_ij cos(θ_i − θ_j), for any tree.
+/// A tree of any shape with the mass matrix A(θ) = A_ij cos(θ_i − θ_j).
 #[derive(Clone, Debug)]
 pub struct Dense {
     coupling: DMatrix<f64>,
@@ -31,7 +31,7 @@ impl Dense {
         }
     }
 
-    /// Angular accelerations; NaN where Cholesky finds no factors.
+    /// Writes the angular accelerations; NaN if the Cholesky factorisation fails.
     pub fn accelerations(&mut self, theta: &[f64], omega: &[f64], alpha: &mut [f64]) {
         let n = self.weight.len();
         for (i, theta) in theta.iter().enumerate() {

@@ -1,4 +1,4 @@
-//! Large trees: code in loops over generations.
+//! Large trees, whose code is loops over generations.
 
 // One attribute a tree; their docs are in the attribute's output.
 #![allow(missing_docs)]
@@ -14,8 +14,8 @@ use super::articulated::Articulated;
 use super::states::{SEEDS, random};
 use super::table;
 
-/// Numbers in one pass, about, where a state has fewer: they fit into the second
-/// cache.
+/// Approximate number of values in one pass, if a single state has fewer; they fit into the
+/// second-level cache.
 const NUMBERS: usize = 6144;
 
 /// Full binary trees of rods.
@@ -38,7 +38,7 @@ tree!(Loops16383, 14);
 tree!(Loops131071, 17);
 tree!(Loops1048575, 20);
 
-/// Irregular trees: a rod with several full trees of rods under it.
+/// Irregular trees: a rod from which several full trees of rods hang.
 macro_rules! bush {
     ($name:ident, $trees:ident: $($tree:ident $generations:literal $branching:literal),*) => {
         #[branched_pendulum(
@@ -51,7 +51,7 @@ macro_rules! bush {
         )]
         pub struct $name;
 
-        /// Generations and branching of the trees.
+        /// Number of generations and of children per link of each tree.
         pub const $trees: &[[usize; 2]] = &[$([$generations, $branching]),*];
     };
 }
@@ -59,19 +59,19 @@ macro_rules! bush {
 bush!(Bush127, BUSH_127: a 6 2, b 4 3, c 2 1, d 3 4);
 bush!(Bush500, BUSH_500: a 8 2, b 5 3, c 4 4, d 38 1);
 
-/// Writes accelerations of angles and velocities.
+/// Function that writes the accelerations for angles and velocities.
 type Evaluate<'a> = dyn FnMut(&[f64], &[f64], &mut [f64]) + 'a;
 
-/// Least times for one link, ns.
+/// Shortest times for one link, in ns.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Row {
     /// Number of links.
     pub links: usize,
-    /// The system's sine and cosine of its angle.
+    /// Time of the standard library's sine and cosine of the link's angle.
     pub sines: f64,
     /// Loops on one thread.
     pub one: f64,
-    /// Loops on two threads, where they are measured.
+    /// Loops on two threads; `None` if these are not measured.
     pub two: Option<f64>,
     /// The recursion over a table.
     pub articulated: f64,
@@ -125,7 +125,7 @@ fn row<P: Pendulum<f64>>(model: &P, links: &[table::Link]) -> Row {
     }
 }
 
-/// The states of a tree that are measured with.
+/// The states of a tree at which its accelerations are timed.
 struct States {
     theta: Vec<Vec<f64>>,
     omega: Vec<Vec<f64>>,
@@ -178,7 +178,7 @@ impl States {
     }
 }
 
-/// A table that the program prints.
+/// Returns the table that the program prints.
 #[must_use]
 pub fn table(title: &str, rows: &[Row]) -> String {
     let heads = ["sines of std", "one thread", "two threads", "articulated"];

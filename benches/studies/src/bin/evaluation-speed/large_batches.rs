@@ -1,4 +1,4 @@
-//! Many states of large trees: code in loops, a state in each lane.
+//! Many states of large trees: code in loops, with one state in each lane of the vector registers.
 
 use std::hint::black_box;
 use std::time::Instant;
@@ -21,7 +21,7 @@ use super::states::{SEEDS, random};
 )]
 struct Driven;
 
-/// 127 links in a table, one of them at a place of its own.
+/// 127 links given by a table, one of which hangs at another point of its parent.
 #[branched_pendulum(
     gravity = 9.80665,
     code = loops,
@@ -38,10 +38,11 @@ struct Driven;
 )]
 struct Rack;
 
-/// Least times for one state of a large tree, ns.
+/// Shortest times for one state of a large tree, in ns.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Row {
-    /// Generations, a table, generations of a driven tree, a table with places.
+    /// Kind of the tree: generations, a table, generations of a driven tree, or a table with
+    /// another attachment point.
     pub scene: &'static str,
     /// Number of links.
     pub links: usize,
@@ -131,7 +132,7 @@ fn pass<P: Pendulum<T>, T: Lane>(
     }
 }
 
-/// The table that the program prints.
+/// Returns the table that the program prints.
 #[must_use]
 pub fn table(rows: &[Row]) -> String {
     let mut text =

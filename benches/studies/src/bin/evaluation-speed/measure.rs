@@ -14,11 +14,12 @@ use super::scenes::{factorization, recursion};
 use super::states::{Layouts, SEEDS, random};
 use super::table::{self, Link};
 
-/// Numbers in one pass, about: they fit into the second cache. Not such that arrays
-/// are whole pages long, and share places in the first cache.
+/// Approximate number of values in one pass; they fit into the second-level cache. It is not a
+/// multiple of the page size, so that arrays do not compete for the same lines of the first-level
+/// cache.
 const NUMBERS: usize = 6000;
 
-/// The contenders, in the order of the columns.
+/// Names of the compared implementations, in the order of the columns.
 pub const CONTENDERS: [&str; 10] = [
     "sines of std",
     "factorization",
@@ -32,8 +33,8 @@ pub const CONTENDERS: [&str; 10] = [
     "dense",
 ];
 
-/// Median times for one state of one scene, ns, in the order of [`CONTENDERS`];
-/// none where there is nothing to measure.
+/// Median times for one state of one scene in ns, in the order of [`CONTENDERS`]; `None` if there
+/// is nothing to measure.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Row {
     /// The scene.
@@ -44,11 +45,11 @@ pub struct Row {
     pub times: [Option<f64>; CONTENDERS.len()],
 }
 
-/// One pass over all states; the time is of the pass.
+/// One pass over all states, which is timed as a whole.
 type Pass = Box<dyn FnMut()>;
 
-/// Measures all scenes: medians of `repeats` passes. The contenders of a scene
-/// take turns, so that a change of the processor's clock meets all of them.
+/// Measures all scenes: medians of `repeats` passes. The implementations are timed alternately, so
+/// that a change of the processor's clock affects all of them.
 #[must_use]
 pub fn all(repeats: usize) -> Vec<Row> {
     macro_rules! solves {
@@ -156,7 +157,7 @@ fn median(mut values: Vec<f64>) -> Option<f64> {
     values.get(values.len() / 2).copied()
 }
 
-/// The system's sine and cosine of all angles, alone.
+/// Creates a pass that evaluates only the standard library's sine and cosine of all angles.
 fn sines<const N: usize>() -> impl FnMut() + 'static {
     let theta = arrays::<N>(&inputs::<N>().0);
     let mut sums = vec![[0.0; N]; theta.len()];
@@ -169,7 +170,7 @@ fn sines<const N: usize>() -> impl FnMut() + 'static {
     }
 }
 
-/// One state after the other; the processor may overlap them.
+/// Creates a pass over one state after the other; the processor may overlap their computations.
 fn states<const N: usize>(
     mut evaluate: impl FnMut(&[f64; N], &[f64; N], &mut [f64; N]) + 'static,
 ) -> impl FnMut() + 'static {

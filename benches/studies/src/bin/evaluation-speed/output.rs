@@ -1,4 +1,4 @@
-//! The tables of all contenders, and the chart.
+//! The tables of all implementations, and the chart.
 
 use branched_pendulum::scalar::InstructionSet;
 use branched_pendulum_charts::{Axis, Chart, Panel, Series};
@@ -7,8 +7,8 @@ use super::accuracy::Errors;
 use super::large;
 use super::measure::{CONTENDERS, Row};
 
-/// The table that the program prints: times, and beneath each row the ratios to
-/// the system's sines and cosines.
+/// Returns the table that the program prints: times, and below each row their ratios to the times
+/// of the standard library's sines and cosines.
 #[must_use]
 pub fn table(rows: &[Row]) -> String {
     let mut text = format!(
@@ -29,8 +29,8 @@ pub fn table(rows: &[Row]) -> String {
     text
 }
 
-/// The table of errors: worst ones in units of the conditioning bound, and
-/// beneath each row medians in units in the last place.
+/// Returns the table of errors: the largest in units of the conditioning bound, and below each row
+/// the medians in units in the last place.
 #[must_use]
 pub fn errors(rows: &[Errors]) -> String {
     let mut text =
@@ -48,13 +48,13 @@ pub fn errors(rows: &[Errors]) -> String {
     text
 }
 
-/// A line of a table, a cell for each contender.
+/// Returns a line of a table, with a cell for each implementation.
 fn line(name: &str, cells: [String; CONTENDERS.len()]) -> String {
     let cells = cells.map(|cell| format!(" {cell:>14}"));
     format!("{name:12}{}\n", cells.concat())
 }
 
-/// Time for one link against the number of links.
+/// Returns the chart of the time for one link against the number of links.
 #[must_use]
 pub fn chart(rows: &[Row], large: &[large::Row]) -> Chart {
     let mut panel = Panel::new(Axis::log("time for one link (ns)"));

@@ -4,7 +4,7 @@
 // One attribute a tree; their docs are in the attribute's output.
 #![allow(missing_docs)]
 
-/// The scenes with one way to solve for the accelerations.
+/// Declares all scenes, compiled with one of the methods of solving for the accelerations.
 macro_rules! scenes {
     ($solve:ident: $($tree:ident $generations:literal)*) => {
         pub mod $solve {

@@ -1,4 +1,4 @@
-//! Random states, in the two layouts that the contenders read.
+//! Random states, in the two memory layouts that the implementations read.
 
 use rand_xoshiro::SplitMix64;
 use rand_xoshiro::rand_core::{Rng, SeedableRng};
@@ -9,13 +9,13 @@ pub const SEEDS: [u64; 2] = [1, 2];
 /// Angles or angular velocities of many states.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Layouts {
-    /// State by state, each with all of its links.
+    /// One state after the other, each with all of its links.
     pub by_state: Vec<Vec<f64>>,
-    /// Link by link, each in all states.
+    /// One link after the other, each with its values in all states.
     pub by_link: Vec<Vec<f64>>,
 }
 
-/// `count` states of `links` links, between `-bound` and `bound`.
+/// Creates `count` states of `links` links, with values between `-bound` and `bound`.
 #[must_use]
 pub fn random(seed: u64, links: usize, count: usize, bound: f64) -> Layouts {
     let mut random = SplitMix64::seed_from_u64(seed);

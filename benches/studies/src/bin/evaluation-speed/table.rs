@@ -1,5 +1,5 @@
-//! The scenes as tables, for the baselines: what a program knows that takes any
-//! tree at run time. In any scalar, for references.
+//! The scenes as tables, as a program for arbitrary trees reads them at run time; used by the
+//! implementations for comparison. They exist for any scalar type, for the references.
 
 use branched_pendulum::Scalar;
 
@@ -9,15 +9,15 @@ pub const GRAVITY: f64 = 9.80665;
 /// A link. SI units.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Link<T = f64> {
-    /// Index of the parent, which stands before the link.
+    /// Index of the parent, which is an earlier link.
     pub parent: Option<usize>,
     /// Mass.
     pub mass: T,
-    /// Distance of the centre of mass from the pivot.
+    /// Distance of the centre of mass from the pivot, in m.
     pub com: T,
-    /// Moment of inertia about the centre of mass.
+    /// Moment of inertia about the centre of mass, in kg m².
     pub inertia: T,
-    /// Distance of the pivot from that of the parent.
+    /// Distance of the pivot from the parent's pivot, in m.
     pub lever: T,
 }
 
@@ -46,8 +46,8 @@ pub fn paper<T: Scalar>() -> Vec<Link<T>> {
     vec![parent, child, child]
 }
 
-/// A full binary tree of rods, in the order of the emitted code: each link
-/// before its first subtree, that before the second.
+/// Returns a full binary tree of rods, in the order of the emitted code: each link, then its first
+/// subtree, then its second one.
 #[must_use]
 pub fn tree<T: Scalar>(generations: usize) -> Vec<Link<T>> {
     let mut links = Vec::new();
@@ -56,8 +56,8 @@ pub fn tree<T: Scalar>(generations: usize) -> Vec<Link<T>> {
     links
 }
 
-/// A rod of the same size with full trees under it, each of so many generations
-/// and so many children under each link; in the order of the emitted code.
+/// Returns a rod from which full trees hang, each with this number of generations and of children
+/// per link, in the order of the emitted code. All rods have the same size.
 #[must_use]
 pub fn bush(trees: &[[usize; 2]]) -> Vec<Link> {
     let mut links = Vec::new();
@@ -91,8 +91,8 @@ fn grow<T: Scalar>(
     }
 }
 
-/// The constants A_ij of the mass matrix, and those of the weights over g:
-/// `docs/physics.md`, section 1.
+/// Returns the constants A_ij of the mass matrix, and the constants of the weights divided by g:
+/// see `docs/physics.md`, section 1.
 pub fn couplings<T: Scalar>(links: &[Link<T>]) -> (Vec<Vec<T>>, Vec<T>) {
     let n = links.len();
     let mut carried: Vec<T> = links.iter().map(|link| link.mass).collect();

@@ -1,4 +1,4 @@
-//! What stands in the folder and is not the cache's.
+//! Files in the folder that the cache did not write.
 
 use super::{Folder, own};
 use crate::cache::entry::CacheEntry;
@@ -11,11 +11,11 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::time::{Duration, SystemTime};
 
-/// Files that the cache writes in a test, and most that stay.
+/// Number of files that the cache writes in a test, and the number that may remain.
 const WRITTEN: usize = 20;
 const STAY: usize = 6;
 
-/// Kinds of things that [`place`] puts in a folder.
+/// Number of kinds of foreign files that [`place`] creates.
 const KINDS: u64 = 12;
 
 fn temporary(name: &str) -> PathBuf {
@@ -25,7 +25,7 @@ fn temporary(name: &str) -> PathBuf {
     path
 }
 
-/// An old file with a mode.
+/// Writes an old file with the given permissions.
 fn write(path: &Path, text: &str, mode: u32) {
     fs::write(path, text).unwrap();
     fs::set_permissions(path, Permissions::from_mode(mode)).unwrap();
@@ -38,9 +38,9 @@ fn write(path: &Path, text: &str, mode: u32) {
         .unwrap();
 }
 
-/// Puts a thing of a kind in a folder: under the name of one of the cache's files, or with
-/// the text of one, but not both.
-fn place(folder: &Path, outside: &Path, kind: u64, random: &mut SplitMix64) {
+/// Creates a foreign file of the given kind: it has the name of a cache file or the text of a cache
+/// file, but not both.
+fn install(folder: &Path, outside: &Path, kind: u64, random: &mut SplitMix64) {
     let number = (random.next_u64() % (3 * WRITTEN as u64)) as usize;
     let (name, text) = own(number);
     let named = folder.join(&name);
@@ -91,7 +91,7 @@ fn place(folder: &Path, outside: &Path, kind: u64, random: &mut SplitMix64) {
     }
 }
 
-/// All that a folder holds, as text.
+/// Lists everything that a folder holds, as text.
 fn seen(folder: &Path) -> Vec<String> {
     let mut lines = Vec::new();
     for entry in fs::read_dir(folder).unwrap() {
@@ -118,7 +118,7 @@ fn stays_untouched_in_a_hundred_folders() {
         let mut random = SplitMix64::seed_from_u64(seed);
         for _ in 0..5 + random.next_u64() % 30 {
             let kind = random.next_u64() % KINDS;
-            place(&path, &outside, kind, &mut random);
+            install(&path, &outside, kind, &mut random);
         }
         let (before, elsewhere) = (seen(&path), seen(&outside));
         let foreign: Vec<String> = names(&path);
@@ -136,7 +136,7 @@ fn stays_untouched_in_a_hundred_folders() {
                 "{seed} {name}"
             );
         }
-        // Others are never asked for.
+        // No question leads to the other names.
         for name in foreign
             .iter()
             .filter(|name| CacheEntry::is_name(name.as_ref()))
@@ -199,7 +199,7 @@ fn is_not_believed_where_others_may_write() {
     fs::remove_dir_all(path).unwrap();
 }
 
-/// Whatever others may write by default.
+/// Independent of the umask of the process.
 #[test]
 fn has_no_part_in_what_the_cache_makes() {
     let path = temporary("modes").join("a/b");

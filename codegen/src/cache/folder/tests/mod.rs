@@ -24,7 +24,7 @@ fn the_target_folder_is_told_by_the_compilers_arguments() {
     fs::remove_dir_all(root).unwrap();
 }
 
-/// Name and text of a file of the cache.
+/// Name and text of a cache file.
 fn own(number: usize) -> (String, String) {
     let question = number.to_string();
     let entry = CacheEntry {

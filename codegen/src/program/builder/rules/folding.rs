@@ -1,10 +1,10 @@
 //! Operations on constants become constants of the model, in exact arithmetic.
 //!
-//! Constants move to the left of a product and meet there, and a division by one is
-//! a product with its inverse: (μ cos) / M becomes (μ/M) · cos. What no parameter
-//! touches is rounded once, from its exact value; so a folded program rounds at most
-//! as often as the one that was written. x · (1/c) for x / c rounds twice where the quotient
-//! rounds once, 1/c being exact until it is stored.
+//! Constants move to the left of a product and are combined there. A division by one becomes a
+//! product with its inverse: (μ cos) / M becomes (μ/M) · cos. A constant without parameters is
+//! rounded once, from its exact value, so that a folded program has at most as many roundings as
+//! the original. Only x · (1/c) for x / c rounds twice instead of once, because 1/c is rounded when
+//! it is stored.
 
 use crate::program::builder::Builder;
 use crate::program::{ConstantId, Op, Setup, ValueId};
@@ -47,12 +47,12 @@ pub(super) fn folding(builder: &mut Builder, op: &Op) -> Option<ValueId> {
     }
 }
 
-/// A constant times a value: the constant stands first, and is multiplied with one that
-/// is there already.
+/// Simplifies the product of a constant and a value: the constant comes first, and is multiplied
+/// with a constant factor that the value already has.
 fn scaled(builder: &mut Builder, a: ValueId, b: ValueId) -> Option<ValueId> {
     for (x, y) in [(a, b), (b, a)] {
         if builder.as_constant(x).is_some() {
-            // −(c · rest) is stored as Neg, so constants meet here only.
+            // −(c · rest) is stored as Neg, so constants are combined only here.
             if let Op::Mul(c, rest) = *builder.op(y)
                 && let Some(folded) = fold(builder, x, c, Setup::mul)
             {
@@ -82,7 +82,7 @@ mod tests {
             *builder.op(third),
             Op::Number(Rational::from(2) * third_exactly)
         );
-        // (2/3 x) · 3 / 2: every constant is gone.
+        // (2/3 x) · 3 / 2: no constant remains.
         let scaled = builder.mul(third, x);
         let back = builder.mul(scaled, three);
         assert_eq!(builder.div(back, two), x);

@@ -1,12 +1,11 @@
-//! Rules that make an operation simpler at the moment at which it is formed.
+//! Rules that simplify an operation before it is added to the program.
 //!
-//! A rule is one function in a file of its own: it is shown an operation whose
-//! operands are formed already, and gives the value that the operation becomes,
-//! or nothing where it does not apply. [`RULES`] are tried in their order; what none of
-//! them changes is recorded, where an equal operation is found first
-//! ([`sharing`]). Each looks at one operation and the definitions of its operands, so
-//! that a program of n operations costs O(n log n) in all: the logarithm is that
-//! of the table of operations.
+//! Each rule is one function in its own file. It gets an operation whose operands exist already,
+//! and returns the value that replaces it, or `None` if the rule does not apply. [`RULES`] are
+//! tried in order. An operation that none of them changes is recorded, unless an equal operation
+//! exists already ([`sharing`]). Each rule inspects only the operation and the definitions of its
+//! operands. A program of n operations therefore costs O(n log n), where the logarithm is that of
+//! the table of operations.
 
 mod folding;
 mod neutral;
@@ -16,11 +15,11 @@ mod signs;
 use super::Builder;
 use crate::program::{Op, Pass, ValueId};
 
-/// The value that an operation becomes, if the rule applies.
+/// A rule. Returns the replacement of an operation, or `None` if the rule does not apply.
 type Rule = fn(&mut Builder, &Op) -> Option<ValueId>;
 
-/// The rules in the order in which they are tried, and the passes that they are.
-/// The first is always on: what symmetry makes zero is to vanish from every program.
+/// The rules in the order in which they are tried, each with its pass. The first rule is always
+/// active, because terms that are zero by symmetry must vanish from every program.
 pub(super) const RULES: [(Option<Pass>, Rule); 3] = [
     (None, neutral::neutral),
     (Some(Pass::Signs), signs::signs),

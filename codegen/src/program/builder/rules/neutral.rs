@@ -1,8 +1,8 @@
-//! Operations that change nothing, or of a value with itself.
+//! Removes operations with 0 and 1, and operations of a value with itself.
 //!
-//! x + 0, x · 1 and x / 1 are x; x · 0, 0 / x and x − x are 0; x + x is 2 x. All exact for
-//! finite x. What the symmetry of a scene makes zero vanishes from its code here,
-//! so that it is zero to the bit.
+//! x + 0, x · 1 and x / 1 become x; x · 0, 0 / x and x − x become 0; x + x becomes 2 x. All are
+//! exact for finite x. This rule removes the terms that are zero by a scene's symmetry, so that
+//! they are exactly zero.
 
 use crate::program::builder::Builder;
 use crate::program::{Op, ValueId};

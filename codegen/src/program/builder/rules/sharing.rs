@@ -1,19 +1,19 @@
-//! Equal operations on equal operands are one value (hash-consing). Values are looked up alone,
-//! never walked, so that no order depends on hashes.
+//! Equal operations on equal operands become one value (hash-consing). The table is only looked up,
+//! never iterated, so that no order depends on hashes.
 //!
-//! Exact: a value has the same bits wherever it is formed, and sums and products do not
-//! depend on the order of their two operands.
+//! Exact: a value has the same bits wherever it is computed, and sums and products do not depend on
+//! the order of their two operands.
 
 use crate::program::{Op, ValueId};
 use std::collections::HashMap;
 
-/// The operations that are formed already, operands in order where that makes no difference.
+/// The operations computed so far; operands of sums and products are sorted.
 #[derive(Clone, Default)]
 pub(in crate::program) struct KnownOperations(HashMap<Op, ValueId>);
 
 impl KnownOperations {
-    /// The value that is formed by this operation, or by the same with its operands
-    /// exchanged where that makes no difference.
+    /// Returns the value of this operation, or of the same sum or product with exchanged operands,
+    /// if it exists.
     pub(in crate::program) fn find(&self, op: &Op) -> Option<ValueId> {
         let found = match ordered(op) {
             Some(ordered) => self.0.get(&ordered),
@@ -22,8 +22,8 @@ impl KnownOperations {
         found.copied()
     }
 
-    /// As [`find`](Self::find), for operations that are one value in programs
-    /// without sharing too: inputs, constants, sines and cosines.
+    /// Finds the operation like [`find`](Self::find), but only inputs, constants, sines and
+    /// cosines, which are shared even if the pass is left out.
     pub(in crate::program) fn find_leaf(&self, op: &Op) -> Option<ValueId> {
         let leaf = !op.operands().any(|_| true) || matches!(op, Op::Sin(_) | Op::Cos(_));
         if leaf { self.find(op) } else { None }
@@ -34,7 +34,7 @@ impl KnownOperations {
     }
 }
 
-/// A sum or product with its operands exchanged, if they are not in order.
+/// Returns a sum or product with exchanged operands, if they are not sorted.
 fn ordered(op: &Op) -> Option<Op> {
     match *op {
         Op::Add(a, b) if a > b => Some(Op::Add(b, a)),

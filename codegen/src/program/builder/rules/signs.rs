@@ -1,13 +1,12 @@
-//! Signs move outwards, and into sums and differences where they cost nothing.
+//! Signs move outwards, and into sums and differences, where they cost nothing.
 //!
-//! a + (−b) becomes a − b, (−a) b becomes −(a b), −(a − b) becomes b − a. A change of
-//! sign is exact and rounding is symmetric, so that every value keeps its bits,
-//! but for the sign of a zero.
+//! a + (−b) becomes a − b, (−a) b becomes −(a b), −(a − b) becomes b − a. A change of sign is exact
+//! and rounding is symmetric, so that every value keeps its bits, except for the sign of a zero.
 
 use crate::program::builder::Builder;
 use crate::program::{Op, ValueId};
 
-/// The operand of a change of sign.
+/// Returns the operand of a change of sign; `None` for other values.
 fn opposite(builder: &Builder, id: ValueId) -> Option<ValueId> {
     match *builder.op(id) {
         Op::Neg(inner) => Some(inner),
@@ -77,7 +76,7 @@ mod tests {
         let product = builder.mul(minus_x, y);
         let plain = builder.mul(x, y);
         assert_eq!(*builder.op(product), Op::Neg(plain));
-        // (−x) y − (−x) y · z has no sign left but one.
+        // (−x) y − (−x) y · z keeps a single sign.
         let difference = builder.sub(product, minus_x);
         let positive = builder.sub(x, plain);
         assert_eq!(difference, positive);

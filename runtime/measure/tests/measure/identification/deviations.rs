@@ -1,6 +1,6 @@
 //! Deviations of what was found, against truths and against fits without a part of the record.
 
-use branched_pendulum_measure::identification::FamilyOf;
+use branched_pendulum_measure::identification::{FamilyOf, Shooting};
 
 use super::chain::{Chain, REAL, all_unknown, five_unknown, simulated, truth, with_errors};
 
@@ -62,9 +62,11 @@ fn bars_hold_the_truth_in_two_hundred_runs() {
     }
 }
 
+/// Both error bars of a ratio are in its unit: a ratio of a mass and an inertia is some hundreds, so
+/// that a relative one would be far off.
 #[test]
 fn deviations_of_ratios_hold_the_truth() {
-    let (mut squares, mut count) = (0.0, 0.0);
+    let (mut squares, mut by_blocks, mut count) = (0.0, 0.0, 0.0);
     for seed in 1..=10 {
         let record = simulated([0.8, -0.5], 15.0, 50.0, 2e-3, seed);
         let task = all_unknown(FamilyOf::<Chain>::new(), |value| 1.2 * value);
@@ -73,9 +75,61 @@ fn deviations_of_ratios_hold_the_truth() {
         for ratio in &fit.ratios {
             let error = ratio.value - truth(&ratio.name);
             squares += (error / ratio.naive.unwrap()).powi(2);
+            by_blocks += (error / ratio.by_blocks.unwrap()).powi(2);
+            count += 1.0;
+            let bars = ratio.by_blocks.unwrap() / ratio.naive.unwrap();
+            assert!((0.4..2.5).contains(&bars), "{ratio:?}");
+        }
+    }
+    for squares in [squares, by_blocks] {
+        let size = f64::sqrt(squares / count);
+        assert!((0.6..1.5).contains(&size), "{size}");
+    }
+}
+
+/// With errors that go on for some pictures the bars by blocks of ratios are larger, as those of
+/// single parameters are.
+#[test]
+fn bars_by_blocks_of_ratios_hold_the_truth_where_errors_go_on() {
+    let (mut squares, mut naive, mut count) = (0.0, 0.0, 0.0);
+    for seed in 1..=6 {
+        let record = with_errors([0.8, -0.5], 15.0, 50.0, 2e-3, 0.8, seed);
+        let fit = all_unknown(FamilyOf::<Chain>::new(), |value| value).fit(&record);
+        for ratio in &fit.unwrap().ratios {
+            let error = ratio.value - truth(&ratio.name);
+            squares += (error / ratio.by_blocks.unwrap()).powi(2);
+            naive += (error / ratio.naive.unwrap()).powi(2);
             count += 1.0;
         }
     }
-    let size = f64::sqrt(squares / count);
-    assert!((0.6..1.5).contains(&size), "{size}");
+    let [by_blocks, naive] = [squares, naive].map(|squares| f64::sqrt(squares / count));
+    assert!((0.5..1.6).contains(&by_blocks), "{by_blocks}");
+    assert!(naive > by_blocks, "{naive} {by_blocks}");
+}
+
+/// Blocks that are hardly more than the unknowns have no error bars: one that is left out would
+/// leave nothing to judge it by. Two more than unknowns are enough.
+#[test]
+fn few_blocks_have_no_error_bars() {
+    for (span, seed) in [(6.0, 1), (9.0, 2), (12.0, 3)] {
+        let record = simulated([0.8, -0.5], span, 50.0, 1e-3, seed);
+        for blocks in 2..=10 {
+            let task = five_unknown(|value| value).with_shooting(Shooting {
+                block: Some(1.001 * span / f64::from(blocks)),
+                ..Shooting::default()
+            });
+            let fit = task.fit(&record).unwrap();
+            assert_eq!(fit.blocks, blocks as usize);
+            let unknowns = fit.estimates.len();
+            for own in &fit.estimates {
+                let by_blocks = own.by_blocks.unwrap();
+                assert_eq!(
+                    by_blocks.is_finite(),
+                    fit.blocks >= unknowns + 2,
+                    "{blocks} {own:?}"
+                );
+                assert_eq!(own.deviation().unwrap().is_finite(), by_blocks.is_finite());
+            }
+        }
+    }
 }

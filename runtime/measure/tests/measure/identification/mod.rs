@@ -1,10 +1,12 @@
 //! Parameters from measured and simulated motions.
 
-mod chain;
+mod bounds;
+pub(crate) mod chain;
 mod deviations;
 mod frequencies;
 mod measured;
 mod mistakes;
 mod refusals;
+mod releases;
 mod searches;
 mod simulated;

@@ -9,10 +9,11 @@ use crate::motion::MethodArguments;
 use crate::release::{APART, ReleaseArguments};
 use crate::subject::{TreeArguments, assignments};
 
-/// From measured angles of a tree to its energy and power with their errors: of a difference
-/// between copies H_d and W, of a tree without copies H and the power of friction and drive.
-/// The file is a table of angles against time, or of two dots a link as Tracker or DeepLabCut
-/// write them; without one a camera before the tree is simulated, whose truth is known.
+/// Computes energy and power of a tree, with their errors, from its measured angles: for a
+/// difference between copies its energy H_d and the energy transfer W, for a tree without copies
+/// the energy H and the power of friction and drive. The file is a table of angles against time, or
+/// of two dots per link as Tracker or DeepLabCut write them; without a file, a camera that records
+/// the tree is simulated, so that the true values are known.
 #[derive(Clone, Debug, Parser, PartialEq)]
 #[command(
     name = "branched-pendulum analyse",
@@ -27,47 +28,47 @@ pub struct Arguments {
     /// The tree that was measured.
     #[command(flatten)]
     pub tree: TreeArguments,
-    /// sector whose energy is told, by its name, or `whole` for that of the tree; the first
-    /// difference between copies without it, and the whole where there are none
+    /// name of the sector whose energy is reported, or `whole` for the energy of the whole tree; by
+    /// default the first difference between copies, or the whole tree if there are none
     #[arg(verbatim_doc_comment, long, value_name = "NAME")]
     pub sector: Option<String>,
-    /// takes every Nth row of the file
+    /// uses every Nth row of the file only
     #[arg(long, value_name = "N", default_value = "1", value_parser = rows)]
     pub every: usize,
-    /// use the equations of motion: smaller errors if they hold
+    /// uses the equations of motion: errors are smaller if the equations are correct
     #[arg(long)]
     pub model: bool,
-    /// polynomials near each time, a check of what smoothness says
+    /// uses polynomials near each time, as a check of the estimate by smoothness
     #[arg(long, conflicts_with = "model")]
     pub polynomials: bool,
-    /// draws from the motions that the data allow, 20 to 10000
+    /// number of random draws of motions that agree with the data, 20 to 10000
     #[arg(long, value_name = "N", default_value = "200", value_parser = clap::value_parser!(u32).range(20..=10_000))]
     pub draws: u32,
     /// How a simulated tree starts.
     #[command(flatten)]
     pub release: ReleaseArguments,
-    /// How a simulated motion is integrated.
+    /// How the motion is integrated if it is simulated.
     #[command(flatten)]
     pub method: MethodArguments,
-    /// simulated: difference of copies at the start, rad from 0 to 1: the coordinate of the sector
-    /// that is told is larger by so much
+    /// simulation: initial difference between copies, rad from 0 to 1; the coordinate of the
+    /// reported sector is increased by this difference
     #[arg(long, value_name = "RAD", default_value = "0.01", value_parser = number(0.0..=1.0, "rad"))]
     pub difference: f64,
-    /// simulated: length of the record, s from 0.5 to 100
+    /// simulation: length of the record, s from 0.5 to 100
     #[arg(long, value_name = "S", default_value = "4", value_parser = number(0.5..=1e2, "s"))]
     pub duration: f64,
-    /// simulated: pictures a second, 10 to 1e4
+    /// simulation: pictures per second, 10 to 1e4
     #[arg(long, value_name = "HZ", default_value = "240", value_parser = number(1e1..=1e4, "Hz"))]
     pub rate: f64,
-    /// simulated: error of a dot's place, m from 1e-6 to 0.01
+    /// simulation: standard deviation of a dot's position, m from 1e-6 to 0.01
     #[arg(long, value_name = "M", default_value = "2e-4", value_parser = number(1e-6..=1e-2, "m"))]
     pub noise: f64,
-    /// simulated: values of parameters of the real tree where they are others than those of the
+    /// simulation: values of parameters of the simulated tree that differ from those assumed in the
     /// equations
     #[arg(long, value_name = "NAME=VALUE[,..]", value_parser = assignments)]
     // By its full path, clap takes each for one value.
     pub real: Vec<::std::vec::Vec<(String, f64)>>,
-    /// simulated: the second link's dots are turned from its line by so much, degrees
+    /// simulation: angle by which the second link's dots are rotated from its axis, degrees
     #[arg(long, value_name = "DEG", default_value = "0", value_parser = number(-10.0..=10.0, "°"), allow_hyphen_values = true)]
     pub turned: f64,
     /// seed of all random numbers
@@ -119,7 +120,7 @@ mod tests {
     #[test]
     fn lists_are_one_option() {
         assert!(Arguments::try_parse_from(["analyse", "swing.csv", "--every", "0"]).is_err());
-        // All of a list stands in the record of a run.
+        // The record of a run holds all of a list.
         let words = ["analyse", "swing.csv", "--columns", "a,b,c"].map(Into::into);
         let read = program::parse::<Arguments>(words).unwrap();
         assert_eq!(read.arguments.measured.columns, ["a", "b", "c"]);

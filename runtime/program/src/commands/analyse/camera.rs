@@ -1,4 +1,4 @@
-//! A simulated camera before a tree: data whose truth is known.
+//! Simulated camera that records a tree: data whose true values are known.
 
 use branched_pendulum::system::State;
 use rand_distr::{Distribution, StandardNormal};
@@ -10,22 +10,23 @@ use crate::Failure;
 use crate::motion::{MethodArguments, sample};
 use crate::subject::Subject;
 
-/// Pictures of a tree by a camera, each link by two dots.
+/// Settings of a camera that records two dots on each link.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Camera {
     /// Pictures a second.
     pub rate: f64,
-    /// Standard deviation of a dot's place in each direction, m.
+    /// Standard deviation of a dot's position in each direction, in m.
     pub noise: f64,
-    /// Distance of the two dots of a link, m.
+    /// Distance between the two dots of a link, in m.
     pub distance: f64,
-    /// Angle between the second link's dots and its line from pivot to centre of mass, rad.
+    /// Angle between the line through the second link's dots and its line from pivot to centre of
+    /// mass, in rad.
     pub turned: f64,
     /// Seed of the noise.
     pub seed: u64,
 }
 
-/// A motion as it is, at one time.
+/// True motion at one time.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Truth {
     /// Time, s.
@@ -40,7 +41,7 @@ pub struct Truth {
     pub power: f64,
 }
 
-/// The motion of a tree as it is, `rate` pictures in each second of `duration`.
+/// Computes the true motion of a tree for `duration` seconds, with `rate` pictures per second.
 ///
 /// # Errors
 /// [`Failure::Motion`].
@@ -65,14 +66,14 @@ pub fn motion(
             links: links.to_vec(),
             rates,
             energy,
-            power: power.told,
+            power: power.reported,
         }
     });
     Ok(truths.collect())
 }
 
 impl Camera {
-    /// The links' angles (rad) as they follow from the dots.
+    /// Returns the links' angles (rad) as computed from the recorded dots.
     pub fn angles(&self, motion: &[Truth]) -> Vec<Vec<Option<f64>>> {
         let mut random = Xoshiro256PlusPlus::seed_from_u64(self.seed);
         let mut dot = || {

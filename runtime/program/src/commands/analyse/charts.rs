@@ -1,4 +1,4 @@
-//! Angle, energy and power against time, with their errors.
+//! Charts of angle, energy and power against time, with their errors.
 
 use branched_pendulum_charts::{Axis, Chart, Color, Dash, Panel, Series, verbatim};
 use branched_pendulum_measure::Bands;
@@ -10,12 +10,14 @@ use super::subject::{MeasuredTree, Names};
 
 const BLUE: Color = Color::of_series(0);
 const BLACK: Color = Color::rgb(0, 0, 0);
-const LIGHT: Color = Color::rgb(176, 208, 232);
 
-/// Half the width of a band that holds 95 % of a normal distribution.
+/// Largest number of measured points that are drawn on the estimate; more would hide it.
+const MOST_POINTS: usize = 150;
+
+/// Half width of the interval that contains 95 % of a normal distribution, in standard deviations.
 const NORMAL_95: f64 = 1.96;
 
-/// Draws the estimate; a simulated camera's truth is dashed.
+/// Draws the estimate; the true values of a simulated camera are dashed.
 pub fn chart(subject: &MeasuredTree, source: &Source, estimate: &Estimate) -> Chart {
     let names = subject.names();
     let times = &source.times;
@@ -29,14 +31,34 @@ pub fn chart(subject: &MeasuredTree, source: &Source, estimate: &Estimate) -> Ch
             subject.coordinates(&links.collect::<Vec<_>>())[drawn]
         })
         .collect();
-    let angle = Panel::new(Axis::linear(format!("{} (rad)", names.symbols[drawn])))
-        .series(Series::points("measured", times, &data).color(LIGHT))
+    let symbol = &names.symbols[drawn];
+    let (some_times, some_data) = thinned(times, &data);
+    let angle = Panel::new(Axis::linear(format!("{symbol} (rad)")))
         .series(
             Series::line("estimated", times, &angles)
                 .color(BLUE)
                 .dash(Dash::Solid),
         )
+        .series(
+            Series::points("measured", &some_times, &some_data)
+                .color(BLACK)
+                .small(),
+        )
         .zero_line();
+    let residuals = data
+        .iter()
+        .zip(&angles)
+        .map(|(seen, estimated)| seen - estimated);
+    let residuals: Vec<f64> = residuals.collect();
+    let residuals = Panel::new(Axis::linear(format!(
+        "{symbol}: measured − estimated (rad)"
+    )))
+    .series(
+        Series::points("measured", times, &residuals)
+            .color(BLACK)
+            .small(),
+    )
+    .zero_line();
     let Names { energy, power, .. } = names;
     let truth = |of: fn(&Truth) -> f64| source.truth.iter().map(of).collect::<Vec<f64>>();
     let panel = |axis: String, index: usize, truth: Vec<f64>| {
@@ -47,8 +69,9 @@ pub fn chart(subject: &MeasuredTree, source: &Source, estimate: &Estimate) -> Ch
         format!("{} from measured angles", verbatim(&names.energy_words)),
         Axis::linear("t (s)"),
     )
-    .size(900.0, 800.0)
+    .size(900.0, 960.0)
     .panel(angle)
+    .panel(residuals)
     .panel(panel(
         format!("{energy} (J)"),
         quantity::ENERGY,
@@ -63,6 +86,13 @@ pub fn chart(subject: &MeasuredTree, source: &Source, estimate: &Estimate) -> Ch
         .zero_line(),
     )
     .panel(panel("closure (J)".to_owned(), quantity::CLOSURE, Vec::new()).zero_line())
+}
+
+/// Returns every n-th measured point, so that not too many are drawn.
+fn thinned(times: &[f64], data: &[f64]) -> (Vec<f64>, Vec<f64>) {
+    let points = times.iter().zip(data).filter(|(_, datum)| !datum.is_nan());
+    let stride = points.clone().count().div_ceil(MOST_POINTS).max(1);
+    points.step_by(stride).unzip()
 }
 
 fn with_band(

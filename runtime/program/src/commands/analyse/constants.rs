@@ -1,12 +1,12 @@
-//! The tree that is assumed, with its constants, and the real one before a simulated camera.
+//! The tree that is assumed, with its constants, and the tree that a simulated camera records.
 
 use branched_pendulum_trees::TreeError;
 
 use crate::Failure;
 use crate::subject::{Described, Subject};
 
-/// The tree with the constants that are known, and why no pendulum is such where none is: then
-/// it is taken as it is, for a fit may have found such values.
+/// Builds the tree from the known constants. If they are not physical, returns the tree together with
+/// the reason, because a fit may have found them.
 ///
 /// # Errors
 /// [`Failure::Tree`].
@@ -29,10 +29,11 @@ pub fn assumed(described: &Described) -> Result<(Subject, Option<TreeError>), Fa
     }
 }
 
-/// The tree before the simulated camera: the assumed one but for these values.
+/// Returns the tree that the simulated camera records: the assumed tree, except for the given
+/// values.
 ///
 /// # Errors
-/// [`Failure::Tree`], for values that no pendulum can have too.
+/// [`Failure::Tree`], also for values that are not physical.
 pub fn real(described: &Described, real: &[(String, f64)]) -> Result<Subject, Failure> {
     let is_real = |name: &str| real.iter().any(|(own, _)| own == name);
     let mut values = described.known();
@@ -55,7 +56,7 @@ mod tests {
             "branched-pendulum-constants-{}",
             std::process::id()
         ));
-        let told = |text: &str| {
+        let reported = |text: &str| {
             std::fs::write(&path, text).unwrap();
             let line = format!(
                 "--tree double-pendulum --parameters {} --set com_2=0.12",
@@ -68,13 +69,13 @@ mod tests {
                 .map_err(|failure| messages(&failure).join(": "))
         };
         let (subject, impossible) =
-            told(r#"{"mass_1": 0.2, "coulomb_2": 3e-5, "com_2": 0.1}"#).unwrap();
+            reported(r#"{"mass_1": 0.2, "coulomb_2": 3e-5, "com_2": 0.1}"#).unwrap();
         assert_eq!(impossible, None);
         let value = |name: &str| subject.tree.value(name).unwrap();
         assert_eq!((value("mass_1"), value("coulomb_2")), (0.2, 3e-5));
         assert_eq!((value("com_2"), value("mass_2")), (0.12, 0.137595970));
         // What a fit has found is taken as it is.
-        let (subject, impossible) = told(r#"{"viscous_2": -1e-5}"#).unwrap();
+        let (subject, impossible) = reported(r#"{"viscous_2": -1e-5}"#).unwrap();
         assert_eq!(subject.tree.value("viscous_2"), Some(-1e-5));
         assert!(impossible.unwrap().to_string().contains("friction"));
         for (text, part) in [
@@ -84,11 +85,11 @@ mod tests {
             ),
             (
                 r#"{"mass_1": "a"}"#,
-                "`mass_1` is \"a\", which is no number",
+                "`mass_1` is \"a\", which is not a number",
             ),
-            ("[1, 2]", "is no table of names and values"),
+            ("[1, 2]", "is not a table of names and values"),
         ] {
-            let message = told(text).unwrap_err();
+            let message = reported(text).unwrap_err();
             assert!(message.contains(part), "{message}");
         }
         std::fs::remove_file(&path).unwrap();

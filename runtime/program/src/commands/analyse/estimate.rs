@@ -1,5 +1,8 @@
-//! A motion, its energy and power from measured angles, with their errors.
+//! Estimation of a motion, its energy and its power from measured angles, with their errors.
 
+use std::ops::Range;
+
+use branched_pendulum_data::Timing;
 use branched_pendulum_measure::{
     Bands, KinematicSmoother, LocalPolynomials, SmoothedMotion, SmoothingError, bands,
     running_integral,
@@ -14,39 +17,60 @@ use crate::smoothed::{AngleRows, Disturbances, Motion, Smoothed, one_by_one};
 
 /// Indices of the quantities in [`Estimate::energies`].
 pub mod quantity {
-    /// The energy, J: of a difference H_d, of a whole tree H.
+    /// Energy in J: H_d of a difference, or H of a whole tree.
     pub const ENERGY: usize = 0;
-    /// The power, W: of a difference W, of a whole tree that of friction and drive.
+    /// Power in W: W of a difference, or the power of friction and drive for a whole tree.
     pub const POWER: usize = 1;
-    /// Integral since the first time of all power that changes the energy, J.
+    /// Integral of all power that changes the energy, since the first time of the interval, in J.
     pub const FLOWED: usize = 2;
-    /// Such an integral less the change of the energy: zero but for errors, J. By the equations
-    /// of motion the one along the likeliest motion, and its error that of noise alone.
+    /// Closure: this integral minus the change of the energy, zero except for errors, in J. If
+    /// equations of motion are used, it is the closure along the most likely motion, and its error
+    /// is that of noise only.
     pub const CLOSURE: usize = 3;
     /// Their number.
     pub const COUNT: usize = 4;
 }
 
-/// A motion as data tell it.
+/// A motion estimated from data, with its errors.
 #[derive(Clone, Debug)]
 pub struct Estimate {
     /// Rates of the coordinates, rad/s.
     pub rates: Bands<Vec<f64>>,
-    /// Quantities that follow from the motion: [`quantity`] says which stands where.
+    /// Quantities computed from the motion, at the indices in [`quantity`].
     pub energies: Bands<[f64; quantity::COUNT]>,
-    /// Standard deviation of the links' angles that was found, rad.
+    /// Estimated standard deviation of the links' measured angles, in rad.
     pub noise: f64,
-    /// Correlation of successive innovations in standard deviations, the largest; NaN where
-    /// nothing is foretold.
+    /// Largest correlation of successive innovations (prediction errors), in standard deviations;
+    /// NaN if the method makes no predictions.
     pub whiteness: f64,
-    /// Friction that the equations of motion lack, N m s, pivot by pivot; none where none is
-    /// sought.
+    /// Friction coefficients (N m s) that are missing in the equations of motion, pivot by pivot;
+    /// empty if none are searched for.
     pub frictions: Vec<f64>,
     /// The likeliest motion.
     pub motion: Vec<Motion>,
 }
 
-/// Draws whose mean and deviation are told.
+impl Estimate {
+    /// Appends the estimate for a later time interval to this estimate.
+    fn followed_by(mut self, later: Self) -> Self {
+        // Of the longer stretch, which shows more of it.
+        if later.motion.len() > self.motion.len() {
+            self.frictions = later.frictions;
+        }
+        if later.whiteness.abs() > self.whiteness.abs() {
+            self.whiteness = later.whiteness;
+        }
+        self.noise = self.noise.max(later.noise);
+        self.rates.means.extend(later.rates.means);
+        self.rates.deviations.extend(later.rates.deviations);
+        self.energies.means.extend(later.energies.means);
+        self.energies.deviations.extend(later.energies.deviations);
+        self.motion.extend(later.motion);
+        self
+    }
+}
+
+/// Random draws of the motion, from which means and standard deviations are computed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Draws {
     /// Their number.
@@ -65,41 +89,72 @@ pub struct Measured<'a> {
 }
 
 impl Measured<'_> {
-    /// Estimates the motion knowing only that it is smooth, each coordinate by itself; a
-    /// picture that lacks a link counts as missing.
+    /// Estimates the motion by smoothness only, each coordinate separately; a picture in which a
+    /// link is missing counts as missing.
     ///
     /// # Errors
     /// [`Failure::Smoothing`].
     pub fn by_smoothness(&self, draws: Draws) -> Result<Estimate, Failure> {
-        self.separately(draws, |times, data| {
-            KinematicSmoother::default().smooth(times, data)
+        self.in_stretches(|part, _| {
+            part.separately(draws, |times, data| {
+                KinematicSmoother::default().smooth(times, data)
+            })
         })
     }
 
-    /// Estimates the motion by polynomials near each time, otherwise likewise.
+    /// Estimates the motion by polynomials near each time, each coordinate separately.
     ///
     /// # Errors
     /// [`Failure::Smoothing`].
     pub fn by_polynomials(&self, draws: Draws) -> Result<Estimate, Failure> {
-        self.separately(draws, |times, data| {
-            LocalPolynomials::default().smooth(times, data)
+        self.in_stretches(|part, _| {
+            part.separately(draws, |times, data| {
+                LocalPolynomials::default().smooth(times, data)
+            })
         })
     }
 
-    /// Estimates the motion with the equations of motion, beginning from an estimate without
-    /// them.
+    /// Estimates the motion with the equations of motion, starting from an estimate without them.
     ///
     /// # Errors
     /// [`Failure::Smoothing`].
     pub fn by_model(&self, guess: &Estimate, draws: Draws) -> Result<Estimate, Failure> {
         let subject = self.subject;
-        let guess = guess.motion.iter();
-        let guess: Vec<Motion> = guess
-            .map(|motion| motion.each_ref().map(|part| subject.links(part)))
-            .collect();
-        let found = subject.by_model(self.record, &guess)?;
         let symmetric = |part: &Vec<f64>| subject.coordinates(part);
-        Ok(self.estimate(draws, &found, |motion| motion.each_ref().map(symmetric)))
+        self.in_stretches(|part, rows| {
+            let guess = guess.motion[rows].iter();
+            let guess: Vec<Motion> = guess
+                .map(|motion| motion.each_ref().map(|part| subject.links(part)))
+                .collect();
+            let found = subject.by_model(part.record, &guess)?;
+            Ok(part.estimate(draws, &found, |motion| motion.each_ref().map(symmetric)))
+        })
+    }
+
+    /// Estimates the intervals between long gaps one after the other. Each is a separate motion,
+    /// whose energy change is counted from its own start.
+    fn in_stretches(
+        &self,
+        estimate: impl Fn(&Measured<'_>, Range<usize>) -> Result<Estimate, Failure>,
+    ) -> Result<Estimate, Failure> {
+        let AngleRows { times, angles } = self.record;
+        let of_rows = |rows: Range<usize>| {
+            let part = Measured {
+                record: AngleRows {
+                    times: &times[rows.clone()],
+                    angles: &angles[rows.clone()],
+                },
+                ..*self
+            };
+            estimate(&part, rows)
+        };
+        let mut parts = Timing::stretches(times).into_iter();
+        let Some(first) = parts.next() else {
+            return of_rows(0..times.len());
+        };
+        parts.try_fold(of_rows(first)?, |whole, rows| {
+            Ok(whole.followed_by(of_rows(rows)?))
+        })
     }
 
     fn separately(
@@ -127,8 +182,9 @@ impl Measured<'_> {
         Ok(self.estimate(draws, &found, |motion| motion))
     }
 
-    /// Tells what follows from draws, whose states `coordinates` takes to those that are
-    /// told. They are drawn twice, with the same random numbers, rather than kept.
+    /// Computes means and standard deviations of all quantities from random draws; `coordinates`
+    /// converts the drawn states to those that are reported. The same motions are drawn twice, with
+    /// the same random numbers, instead of being stored.
     fn estimate(
         &self,
         Draws { count, seed }: Draws,
@@ -139,27 +195,27 @@ impl Measured<'_> {
             let mut random = Xoshiro256PlusPlus::seed_from_u64(seed);
             move || StandardNormal.sample(&mut random)
         };
-        let told =
+        let reported =
             |motion: Vec<Motion>| -> Vec<Motion> { motion.into_iter().map(&coordinates).collect() };
         let mut numbers = normal();
         let (rates, _) = bands(count, || {
-            let motion = told((found.draw)(&mut numbers));
+            let motion = reported((found.draw)(&mut numbers));
             motion.into_iter().map(|[_, rates]| rates).collect()
         });
         let mut numbers = normal();
         let (mut energies, _) = bands(count, || {
-            self.energies(&told((found.draw)(&mut numbers)), &found.frictions)
+            self.energies(&reported((found.draw)(&mut numbers)), &found.frictions)
         });
-        let motion = told(found.mean.clone());
+        let motion = reported(found.mean.clone());
         if let Some(Disturbances {
             likeliest,
             spurious,
         }) = &found.disturbances
         {
-            let likeliest = told(likeliest.clone());
+            let likeliest = reported(likeliest.clone());
             let closure = |changes: &[Motion]| self.closure(&motion, &likeliest, changes);
             let mut numbers = normal();
-            let (noise, _) = bands(count, || closure(&told(spurious(&mut numbers))));
+            let (noise, _) = bands(count, || closure(&reported(spurious(&mut numbers))));
             let places = energies.means.iter_mut().zip(&mut energies.deviations);
             let values = closure(&likeliest).into_iter().zip(noise.deviations);
             for ((mean, deviation), ([value], [error])) in places.zip(values) {
@@ -177,24 +233,28 @@ impl Measured<'_> {
         }
     }
 
-    /// The quantities of one motion, with the friction that was found.
+    /// Computes the quantities of one motion, including the estimated friction.
     fn energies(&self, motion: &[Motion], friction: &[f64]) -> Vec<[f64; quantity::COUNT]> {
         let energies: Vec<f64> = motion.iter().map(|m| self.subject.energy(m)).collect();
         let at = self.record.times.iter().zip(motion);
         let powers = at.map(|(time, motion)| self.subject.powers(*time, motion, friction));
         let powers: Vec<_> = powers.collect();
         let whole: Vec<f64> = powers.iter().map(|powers| powers.whole).collect();
-        let flowed = running_integral(self.record.times, &whole);
-        let start = energies.first().copied().unwrap_or(0.0);
-        let rows = energies.iter().zip(&powers).zip(&flowed);
-        rows.map(|((energy, powers), flowed)| {
-            [*energy, powers.told, *flowed, flowed - (energy - start)]
-        })
-        .collect()
+        let mut quantities = Vec::with_capacity(motion.len());
+        // Nothing is known of the power in a long gap.
+        for rows in Timing::stretches(self.record.times) {
+            let flowed = running_integral(&self.record.times[rows.clone()], &whole[rows.clone()]);
+            let start = energies[rows.start];
+            quantities.extend(rows.zip(flowed).map(|(row, flowed)| {
+                let closure = flowed - (energies[row] - start);
+                [energies[row], powers[row].reported, flowed, closure]
+            }));
+        }
+        quantities
     }
 
-    /// The closure of a motion if its angles of links are all counted from `tilt`, with that
-    /// friction beside the pendulum's own, J.
+    /// Computes the closure of the energy budget (J) of a motion if the angles of all links are
+    /// measured from `tilt`, with the given friction in addition to that of the pendulum.
     pub fn closure_if(&self, motion: &[Motion], tilt: f64, friction: &[f64]) -> Vec<f64> {
         let turned = motion.iter().map(|[coordinates, rates]| {
             let mut links = self.subject.links(coordinates);
@@ -205,9 +265,9 @@ impl Measured<'_> {
         rows.iter().map(|row| row[quantity::CLOSURE]).collect()
     }
 
-    /// The closure by changes of a motion beside its equations: along these the energy changes
-    /// by its power, so that all else is in the changes. To first order, about the middle of the
-    /// likeliest ones.
+    /// Computes the closure of the energy budget from changes of a motion that its equations do not
+    /// explain. Along the equations the energy changes by its power, so that the whole gap comes
+    /// from these changes. To first order about the mean of the most likely changes.
     fn closure(
         &self,
         motion: &[Motion],

@@ -1,8 +1,10 @@
-//! From measured angles of a pendulum to its energy and power, with their errors.
+//! Computation of a pendulum's energy and power, with their errors, from its measured angles.
 //!
 //! - [`arguments`]: the command line,
-//! - [`subject`]: the tree, [`constants`]: the values of its parameters,
+//! - [`subject`]: the tree, [`constants`]: the values of its parameters, [`frictions`]: those that
+//!   may be lacking,
 //! - [`source`]: angles out of a file, or of a simulated [`camera`],
+//! - [`leaps`]: rows where the record leaves the equations of motion for a moment,
 //! - [`estimate`]: what follows from motions that the angles allow,
 //! - [`verdict`]: whether the energy budget closes, [`causes`]: readings of the table by which it
 //!   does, [`least`] and [`wrong_pictures`]: what they take from the data,
@@ -15,6 +17,8 @@ pub mod causes;
 pub mod charts;
 pub mod constants;
 pub mod estimate;
+pub mod frictions;
+pub mod leaps;
 pub mod least;
 pub mod report;
 pub mod source;
@@ -30,12 +34,13 @@ pub use estimate::{Draws, Estimate, Measured};
 pub use source::Source;
 pub use subject::MeasuredTree;
 
-use branched_pendulum_data::{Table, TableOptions};
+use branched_pendulum_data::Table;
 
 use crate::Failure;
 use crate::frame::{Job, Progress};
 use crate::measured_file::MeasuredLinks;
 use causes::{CauseSearch, Unclosed};
+use leaps::Leaps;
 use spectrogram::Spectrogram;
 use verdict::Verdict;
 
@@ -46,27 +51,35 @@ use verdict::Verdict;
 /// [`Failure`].
 pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
     let file = arguments.measured.file.as_deref();
-    let table = file.map(|file| Table::read(file, &TableOptions::default()));
+    let table = file.map(|file| arguments.measured.table(file));
     let table = table.transpose()?;
     let known = arguments.tree.described()?;
+    known.note(job)?;
+    file.map_or(Ok(()), |file| job.input_file(file))?;
     let (described, impossible) = constants::assumed(&known)?;
     if let Some(error) = impossible {
         job.print(&format!(
-            "No pendulum is such, but taken as it is: {error}.\n"
+            "These constants are not physical ({error}); continuing with them.\n"
         ))?;
     }
     let subject = MeasuredTree::new(&described, arguments.sector.as_deref())?;
     let hung = MeasuredLinks::new(&described, &known.offsets, &arguments.measured)?;
-    let source = match &table {
+    let mut source = match &table {
         Some(table) => Source::read(table, arguments, &hung)?,
         None => Source::simulate(
             arguments,
             &constants::real(&known, &arguments.real.concat())?,
         )?,
     };
+    if table.is_some() {
+        let leaps = Leaps::of(&subject, &source)?;
+        source.findings.splice(0..0, leaps.finding());
+        let times = leaps.times.iter().map(|ends| ends.to_vec());
+        job.report("leaps", times.collect::<Vec<_>>());
+    }
     let offsets = described.tree.names().iter().cloned();
     let offsets = offsets.zip(source.offsets.iter().copied());
-    described.record_with(job, offsets.collect());
+    described.record_with(job, offsets.collect())?;
     analyse(
         arguments,
         job,
@@ -100,8 +113,8 @@ fn analyse(
     Ok(())
 }
 
-/// Estimates the motion and judges it; where its energy budget fails, causes are sought in the
-/// table.
+/// Estimates the motion and judges its energy budget; if the budget does not close, searches for
+/// causes in the table.
 fn judged(
     arguments: &Arguments,
     subject: &MeasuredTree,

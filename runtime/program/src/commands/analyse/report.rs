@@ -1,4 +1,4 @@
-//! Findings, assumptions and results, in words and as a table.
+//! Findings, assumptions and results, as text and as a table.
 
 use std::fmt::Write;
 
@@ -11,7 +11,11 @@ use super::subject::Names;
 use crate::Failure;
 use crate::frame::Job;
 
-/// Writes the estimate: a row a time, each quantity with its standard deviation.
+/// Correlation (in standard deviations) above which innovations are not considered white; about
+/// one record in a hundred exceeds it by chance.
+const WHITE: f64 = 3.0;
+
+/// Writes the estimate as a table with one row per time; each quantity has its standard deviation.
 ///
 /// # Errors
 /// [`Failure::Csv`] or [`Failure::File`].
@@ -57,16 +61,17 @@ pub fn write(
     })
 }
 
-/// How far an estimate is to be trusted.
+/// How far an estimate can be trusted.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Trust {
     /// Largest energy, J.
     pub energy: f64,
-    /// Largest |∫ power dt − change of the energy|, of that.
+    /// Largest |∫ power dt − change of the energy|, relative to the largest energy.
     pub closure: f64,
-    /// The standard deviation of the closure there, of that.
+    /// Standard deviation of this closure error at the same time, relative to the largest energy.
     pub closure_deviation: f64,
-    /// Root mean square of the power's deviation, of that of the power.
+    /// Root mean square of the power's standard deviation, relative to the root mean square of the
+    /// power.
     pub power: f64,
 }
 
@@ -94,7 +99,7 @@ impl Trust {
     }
 }
 
-/// A part of a whole, in per cent.
+/// Formats a fraction in per cent.
 pub fn percent(part: f64) -> String {
     match 100.0 * part {
         small @ ..0.01 => format!("{small:.1e} %"),
@@ -123,7 +128,10 @@ pub fn report(
         }
         .to_owned(),
     );
-    for words in [accuracy(arguments, names, estimate), left_over(estimate)] {
+    for words in [
+        accuracy(arguments, names, estimate),
+        left_over(arguments, estimate),
+    ] {
         line(words);
     }
     let frictions = names.pivots.iter().zip(&estimate.frictions);
@@ -147,7 +155,7 @@ pub fn report(
     text
 }
 
-/// What was measured.
+/// Describes the measured record.
 fn measured(arguments: &Arguments, source: &Source) -> String {
     let mut text = String::new();
     let mut line = |words: String| {
@@ -168,7 +176,7 @@ fn measured(arguments: &Arguments, source: &Source) -> String {
     text
 }
 
-/// How far angles, the power and its integral are good.
+/// Describes the accuracy of the angles, of the power and of its integral.
 fn accuracy(arguments: &Arguments, names: &Names, estimate: &Estimate) -> String {
     let trust = Trust::of(estimate);
     let (energy, power) = (&names.energy, names.power);
@@ -197,21 +205,31 @@ fn accuracy(arguments: &Arguments, names: &Names, estimate: &Estimate) -> String
     .join("\n")
 }
 
-/// Whether the data go on where the estimate has taken its part.
-fn left_over(estimate: &Estimate) -> String {
+/// Describes the test of the residuals: those of the equations of motion are white if the equations
+/// are correct. Those of smoothness are not, because no pendulum moves with white jerk.
+fn left_over(arguments: &Arguments, estimate: &Estimate) -> String {
     let white = estimate.whiteness;
-    match white.abs() {
-        ..3.0 => format!("  what is left over is white ({white:.1} deviations)"),
-        3.0.. => format!(
-            "  what is left over is not white ({white:.1} deviations): the errors are larger \
-             than told here"
-        ),
-        _ => "  errors are those of the noise: what polynomials do not follow is not in them"
-            .to_owned(),
-    }
+    let words = match (arguments.model, arguments.polynomials) {
+        (true, _) if white.abs() < WHITE => {
+            return format!("  what is left over is white ({white:.1} deviations)");
+        }
+        (true, _) => {
+            return format!(
+                "  what is left over is not white ({white:.1} deviations): the errors are larger than \
+                 these, since the equations of motion or the noise are others"
+            );
+        }
+        (false, true) => {
+            "errors are those of the noise: what polynomials do not follow is not in them"
+        }
+        (false, false) => "errors hold for white noise: --model tests whether it is white",
+    };
+    format!("  {words}")
 }
 
-/// The error of the power against the truth of a simulated camera, rms over rms.
+/// Returns the relative error of the power: the root mean square of its difference from the true
+/// values, which are known for a simulated camera, divided by the root mean square of the true
+/// values.
 pub fn power_error(source: &Source, estimate: &Estimate) -> Option<f64> {
     let pairs = source.truth.iter().zip(&estimate.energies.means);
     let (error, size) = pairs.fold((0.0, 0.0), |(error, size), (truth, row)| {
@@ -227,7 +245,7 @@ mod tests {
     use super::super::{Draws, Measured, Source};
     use super::Trust;
 
-    /// The closure by the equations of motion, in its deviations.
+    /// Returns the closure error by the equations of motion, in its standard deviations.
     fn closure(options: &str) -> f64 {
         let arguments = paper(options);
         let (described, subject) = tree(&arguments);
@@ -242,8 +260,8 @@ mod tests {
         trust.closure / trust.closure_deviation
     }
 
-    /// Dots that are half a degree off their link are no noise, though what is left over of the
-    /// angles is white.
+    /// Checks that dots rotated by half a degree are revealed by the closure, although the
+    /// residuals of the angles are white.
     #[test]
     fn turned_dots_are_told_by_the_closure() {
         let right = closure("--rate 60");

@@ -1,4 +1,4 @@
-//! The angles to be analysed: out of a file, or of a simulated camera.
+//! Angles to analyse: read from a file, or recorded by a simulated camera.
 
 use branched_pendulum_data::{Finding, Table};
 
@@ -10,7 +10,7 @@ use crate::measured_file::MeasuredLinks;
 use crate::smoothed::AngleRows;
 use crate::subject::Subject;
 
-/// Distance of the two dots of a link before the simulated camera, m.
+/// Distance between the two dots of a link in front of the simulated camera, in m.
 const DOTS: f64 = 0.25;
 
 /// Angles against time.
@@ -20,18 +20,18 @@ pub struct Source {
     pub times: Vec<f64>,
     /// Angles of the links, rad.
     pub angles: Vec<Vec<Option<f64>>>,
-    /// Columns or dots of the links, of a file.
+    /// Names of the columns or dots of the links, if a file was read.
     pub links: Vec<String>,
     /// How a file was read.
     pub findings: Vec<Finding>,
-    /// What the links show where they are at 0, rad, of a file; taken from the angles.
+    /// Measured angles (rad) of links whose true angle is 0; they are subtracted.
     pub offsets: Vec<f64>,
-    /// The motion as it is, of a simulated camera.
+    /// True motion, if a camera was simulated.
     pub truth: Vec<Truth>,
 }
 
 impl Source {
-    /// Takes the angles of the links of the tree out of the table of the arguments' file.
+    /// Extracts the angles of the tree's links from the table of the given file.
     ///
     /// # Errors
     /// Errors of [`MeasuredFile::angles`](crate::measured_file::MeasuredFile::angles).
@@ -57,7 +57,7 @@ impl Source {
         })
     }
 
-    /// Simulates a camera before a tree that may be another one than is assumed.
+    /// Simulates a camera that records a tree, which may differ from the assumed one.
     ///
     /// # Errors
     /// [`Failure::Start`], [`Failure::NoLink`], [`Failure::Motion`], and those of

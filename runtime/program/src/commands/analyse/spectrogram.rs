@@ -1,8 +1,10 @@
-//! The lines of a motion that friction moves, one stretch of time after the other.
+//! Spectral lines of a motion that friction shifts, in successive time intervals.
 
 use branched_pendulum_charts::{Axis, Chart, Color, Panel, Series};
-use branched_pendulum_data::Column;
-use branched_pendulum_measure::{LineSearch, Lines, Passage, Passages, Spectrum, SpectrumOptions};
+use branched_pendulum_data::{Column, Timing};
+use branched_pendulum_measure::{
+    LineSearch, Lines, Passage, Passages, Spectrum, SpectrumError, SpectrumOptions,
+};
 
 use super::estimate::Estimate;
 use super::source::Source;
@@ -11,23 +13,23 @@ use crate::Failure;
 use crate::frame::Job;
 use crate::smoothed::Motion;
 
-/// Length of a stretch, s: longer than ten swings of the pendulums here.
+/// Length of a time interval, in s: longer than ten oscillations of typical pendulums.
 const SPAN: f64 = 10.0;
-/// From the start of one to that of the next, s.
+/// Time between the starts of two successive intervals, in s.
 const STEP: f64 = 1.0;
 /// Samples a second.
 const RATE: f64 = 50.0;
-/// Highest frequency that is drawn, Hz.
+/// Highest frequency in the chart, in Hz.
 const TOP: f64 = 4.0;
 /// Frequencies from zero to that.
 const GRID: u32 = 160;
-/// Amplitudes, rad, at which colours change.
+/// Amplitudes (rad) at which colours change.
 const LEVELS: [f64; 5] = [1e-3, 3e-3, 0.01, 0.03, 0.1];
-/// Lines of a stretch, and the smallest beside the largest.
+/// Largest number of lines of an interval, and smallest amplitude relative to the largest.
 const MOST: usize = 4;
 const SMALLEST: f64 = 0.02;
 
-/// Amplitudes and lines of a coordinate's angle in each stretch.
+/// Amplitudes and lines of a coordinate's angle in each time interval.
 pub struct Spectrogram {
     symbol: String,
     spectra: Vec<Passage<Spectrum>>,
@@ -35,9 +37,9 @@ pub struct Spectrogram {
 }
 
 impl Spectrogram {
-    /// Analyses an estimate; none of one that is not two stretches long.
+    /// Computes the spectrogram of an estimate; `None` if the record is shorter than two intervals.
     ///
-    /// The sine of the coordinate is taken, which is bounded where links turn over.
+    /// It uses the sine of the coordinate, which stays bounded if links turn over.
     ///
     /// # Errors
     /// [`Failure::Spectrum`].
@@ -46,38 +48,39 @@ impl Spectrogram {
         source: &Source,
         estimate: &Estimate,
     ) -> Result<Option<Self>, Failure> {
-        let (Some(start), Some(end)) = (source.times.first(), source.times.last()) else {
-            return Ok(None);
-        };
-        if end - start < 2.0 * SPAN {
-            return Ok(None);
+        let (mut spectra, mut lines) = (Vec::new(), Vec::new());
+        for rows in Timing::stretches(&source.times) {
+            let times = &source.times[rows.clone()];
+            let motion = &estimate.motion[rows];
+            let (Some(start), Some(end)) = (times.first(), times.last()) else {
+                continue;
+            };
+            if end - start < 2.0 * SPAN {
+                continue;
+            }
+            let count = ((end - start) * RATE) as u32;
+            let grid = (0..=count).map(|index| start + f64::from(index) / RATE);
+            let samples = grid.map(|time| angle(times, motion, names.heard, time).sin());
+            let samples: Vec<f64> = samples.collect();
+            spectra.extend(of_stretch(*start, &samples, |part| {
+                Spectrum::at_frequencies(
+                    part,
+                    RATE,
+                    &grid_of_frequencies(),
+                    SpectrumOptions::default(),
+                )
+            })?);
+            lines.extend(of_stretch(*start, &samples, |part| {
+                LineSearch {
+                    most: MOST,
+                    smallest: SMALLEST,
+                    ..LineSearch::default()
+                }
+                .find(part, RATE)
+            })?);
         }
-        let count = ((end - start) * RATE) as u32;
-        let times = (0..=count).map(|index| start + f64::from(index) / RATE);
-        let samples: Vec<f64> = times
-            .map(|time| angle(&source.times, &estimate.motion, names.heard, time).sin())
-            .collect();
-        let passages = Passages {
-            span: SPAN,
-            step: STEP,
-        };
-        let grid: Vec<f64> = (0..=GRID)
-            .map(|index| TOP * f64::from(index) / f64::from(GRID))
-            .collect();
-        let search = LineSearch {
-            most: MOST,
-            smallest: SMALLEST,
-            ..LineSearch::default()
-        };
-        let mut spectra = passages.each(&samples, RATE, |part| {
-            Spectrum::at_frequencies(part, RATE, &grid, SpectrumOptions::default())
-        })?;
-        let mut lines = passages.each(&samples, RATE, |part| search.find(part, RATE))?;
-        for passage in &mut spectra {
-            passage.middle += start;
-        }
-        for passage in &mut lines {
-            passage.middle += start;
+        if spectra.is_empty() {
+            return Ok(None);
         }
         let symbol = names.symbols[names.heard].clone();
         Ok(Some(Self {
@@ -87,7 +90,7 @@ impl Spectrogram {
         }))
     }
 
-    /// Writes the lines and draws the chart.
+    /// Writes the lines as a table and draws the chart.
     ///
     /// # Errors
     /// [`Failure::Csv`], [`Failure::File`] or [`Failure::Chart`].
@@ -138,17 +141,49 @@ impl Spectrogram {
             }
         }
         let symbol = &self.symbol;
-        let title = format!("Amplitudes of sin {symbol} in stretches of {SPAN} s, and its lines");
-        let panel = Panel::new(Axis::linear("frequency (Hz)").range(0.0, TOP))
-            .heatmap(&x, &y, &values, &LEVELS)
-            .series(Series::points("lines", &at, &lines).color(Color::rgb(225, 60, 150)));
+        let which = match lines.is_empty() {
+            true => "without lines",
+            false => "and its lines",
+        };
+        let title = format!("Amplitudes of sin {symbol} in stretches of {SPAN} s, {which}");
+        let mut panel = Panel::new(Axis::linear("frequency (Hz)").range(0.0, TOP))
+            .heatmap(&x, &y, &values, &LEVELS);
+        if !lines.is_empty() {
+            let lines = Series::points("lines", &at, &lines);
+            panel = panel.series(lines.color(Color::rgb(225, 60, 150)));
+        }
         Chart::new(title, Axis::linear("t (s)"))
             .size(900.0, 520.0)
             .panel(panel)
     }
 }
 
-/// A coordinate at a time: the cubic through angles and rates at the two times about it.
+/// Frequencies that are drawn, Hz.
+fn grid_of_frequencies() -> Vec<f64> {
+    let all = (0..=GRID).map(|index| TOP * f64::from(index) / f64::from(GRID));
+    all.collect()
+}
+
+/// Applies `look` to the successive time intervals of a part of the record that begins at `start`
+/// (s).
+fn of_stretch<T>(
+    start: f64,
+    samples: &[f64],
+    look: impl FnMut(&[f64]) -> Result<T, SpectrumError>,
+) -> Result<Vec<Passage<T>>, Failure> {
+    let passages = Passages {
+        span: SPAN,
+        step: STEP,
+    };
+    let mut found = passages.each(samples, RATE, look)?;
+    for passage in &mut found {
+        passage.middle += start;
+    }
+    Ok(found)
+}
+
+/// Returns a coordinate at a time, from the cubic polynomial through the angles and rates at the
+/// two neighbouring times.
 fn angle(times: &[f64], motion: &[Motion], of: usize, time: f64) -> f64 {
     let after = times.partition_point(|other| *other < time);
     let after = after.clamp(1, times.len() - 1);

@@ -1,21 +1,24 @@
-//! The tree that was measured, as the estimate takes it.
+//! The measured tree, in the form that the estimation uses.
+
+use std::ops::Range;
 
 use branched_pendulum::Transfer;
 use branched_pendulum::analysis::variational::linearised;
-use branched_pendulum::prelude::AbsoluteAngles;
+use branched_pendulum::prelude::{AbsoluteAngles, Rk4};
 use branched_pendulum::scalar::{Dual, Scalar};
 use branched_pendulum::sectors::{Normalisation, Sectors};
 use branched_pendulum::system::{Energy, Model, Workspace};
-use branched_pendulum::transfer::{Given, NonConservative, SymmetricTree};
+use branched_pendulum::transfer::{NonConservative, StateInput, SymmetricTree};
 use branched_pendulum_charts::verbatim;
-use branched_pendulum_measure::SmoothingError;
+use branched_pendulum_measure::{LeapSearch, SmoothingError};
 use branched_pendulum_trees::PendulumTree;
 
+use super::frictions::{FrictionCoefficient, coefficients};
 use crate::Failure;
 use crate::smoothed::{AngleRows, Motion, Smoothed, SmoothingEquations};
 use crate::subject::Subject;
 
-/// Names of what is told about a tree.
+/// Names of the reported quantities of a tree.
 #[derive(Clone, Debug)]
 pub struct Names {
     /// Coordinates, in columns.
@@ -30,49 +33,50 @@ pub struct Names {
     pub energy_words: String,
     /// The energy, as a symbol.
     pub energy: String,
-    /// The power that is told.
+    /// The reported power.
     pub power: &'static str,
-    /// Pivots whose friction the equations may lack.
+    /// Names of the pivots whose friction the equations may lack.
     pub pivots: Vec<String>,
-    /// Options that give it.
-    pub frictions: Vec<String>,
+    /// Friction coefficients that may be missing.
+    pub frictions: Vec<FrictionCoefficient>,
 }
 
 /// Power at a state, W.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Powers {
-    /// The one that is told.
-    pub told: f64,
+    /// The reported one.
+    pub reported: f64,
     /// All that changes the energy.
     pub whole: f64,
 }
 
-/// Name by which the energy of the whole tree is asked for.
+/// Name under which the energy of the whole tree is requested.
 pub const WHOLE: &str = "whole";
 
-/// A tree in a text whose links were measured: its symmetric coordinates where it has copies, else
+/// A tree whose links were measured. Its symmetric coordinates are used if it has copies, otherwise
 /// the angles of its links.
 pub struct MeasuredTree {
     tree: PendulumTree,
-    /// The tree in numbers with a derivative.
+    /// The tree in numbers that carry a derivative.
     dual: PendulumTree<Dual<f64, 1>>,
-    /// The sector that is told; none for the whole tree.
-    told: Option<Told>,
-    /// Columns by which links follow from coordinates.
+    /// The reported sector; `None` if the whole tree is reported.
+    reported: Option<ReportedSector>,
+    /// Columns of the matrix that converts coordinates to angles of links.
     columns: Vec<Vec<f64>>,
-    /// Of the links of each node the rates in their pivots, as combinations of those of links.
+    /// For each node, the angular velocities in the pivots of its links, as combinations of those
+    /// of links.
     pivots: Vec<Vec<Vec<f64>>>,
     names: Names,
 }
 
-/// A sector whose energy is told.
-struct Told {
+/// Sector whose energy is reported.
+struct ReportedSector {
     tree: SymmetricTree<f64>,
     dual: SymmetricTree<Dual<f64, 1>>,
     sector: usize,
 }
 
-/// The sector that is asked for; none for the whole tree.
+/// Returns the requested sector; `None` for the whole tree.
 fn sector_of(described: &Subject, asked: Option<&str>) -> Result<Option<usize>, Failure> {
     let sectors = described.tree.sectors();
     let names: Vec<&str> = sectors.iter().map(|own| own.name()).collect();
@@ -94,27 +98,27 @@ fn sector_of(described: &Subject, asked: Option<&str>) -> Result<Option<usize>, 
 }
 
 impl MeasuredTree {
-    /// The tree, with the sector that is asked for: the first difference, or the whole of a tree
-    /// without copies, if none is.
+    /// Creates the tree with the requested sector. By default this is the first difference, or the
+    /// whole tree if it has no copies.
     ///
     /// # Errors
-    /// [`Failure::Lacking`] for a sector that there is not, and [`Failure::Tree`] for values that
-    /// no pendulum with copies can have.
+    /// [`Failure::Lacking`] if the sector does not exist, and [`Failure::Tree`] for values that are
+    /// not physical.
     pub fn new(described: &Subject, asked: Option<&str>) -> Result<Self, Failure> {
         let tree = described.tree.clone();
         let sector = sector_of(described, asked)?;
-        let told = sector.map(|sector| {
+        let reported = sector.map(|sector| {
             let symmetric = tree
                 .symmetric()
                 .map_err(|source| Failure::tree(&described.name, source))?;
             let dual = symmetric.cast(Dual::constant);
-            Ok::<_, Failure>(Told {
+            Ok::<_, Failure>(ReportedSector {
                 tree: symmetric,
                 dual,
                 sector,
             })
         });
-        let told = told.transpose()?;
+        let reported = reported.transpose()?;
         let parents = described.parents();
         let count = tree.links();
         let unit = |of: usize| -> Vec<f64> {
@@ -143,19 +147,19 @@ impl MeasuredTree {
             names: names_of(described, sector),
             dual: tree.cast(Dual::constant),
             tree,
-            told,
+            reported,
             columns,
         })
     }
 
-    /// The column by which links follow from the first coordinate of the told sector, for a
-    /// difference; none otherwise.
+    /// Returns, if the reported sector is a difference, the column that converts its first
+    /// coordinate to angles of links; otherwise `None`.
     pub fn difference(&self) -> Option<&[f64]> {
-        let sector = self.told.as_ref()?.sector;
+        let sector = self.reported.as_ref()?.sector;
         (sector > 0).then(|| self.columns[self.names.drawn].as_slice())
     }
 
-    /// Angles and rates of links from those of coordinates.
+    /// Converts coordinates and their rates to angles and angular velocities of links.
     fn in_links<T: Scalar>(&self, motion: &[Vec<T>; 2]) -> [Vec<T>; 2] {
         motion.each_ref().map(|own| {
             let mut links = vec![T::from_f64(0.0); own.len()];
@@ -166,7 +170,7 @@ impl MeasuredTree {
     }
 }
 
-fn names_of(described: &Subject, told: Option<usize>) -> Names {
+fn names_of(described: &Subject, reported: Option<usize>) -> Names {
     let tree = &described.tree;
     let sectors = tree.sectors();
     let all: Vec<&str> = sectors
@@ -184,22 +188,18 @@ fn names_of(described: &Subject, told: Option<usize>) -> Names {
     let before = |sector: usize| counts.iter().take(sector).sum::<usize>();
     // The last of those in phase: means of leaves.
     let heard = before(1).saturating_sub(1);
-    let sector = told.and_then(|told| Some((told, sectors.get(told)?.name())));
+    let sector = reported.and_then(|reported| Some((reported, sectors.get(reported)?.name())));
     let description = tree.description();
     let nodes = description.nodes();
     let pivots = nodes.iter().map(|node| match node.links.len() {
         1 => format!("the pivot of `{}`", node.name),
         _ => format!("the pivots of `{}`", node.name),
     });
-    let frictions = nodes.iter().map(|node| match &node.friction[..] {
-        [] => format!("friction of `{}` in the description", node.name),
-        parameters => format!("--set {}", parameters.join(", ")),
-    });
     Names {
         coordinates: (0..links).map(|of| name(of).to_owned()).collect(),
         symbols: (0..links).map(symbol).collect(),
         drawn: match sector {
-            Some((told, _)) => before(told),
+            Some((reported, _)) => before(reported),
             None => links.saturating_sub(1),
         },
         heard,
@@ -214,11 +214,11 @@ fn names_of(described: &Subject, told: Option<usize>) -> Names {
         },
         power: if sector.is_some() { "W" } else { "P" },
         pivots: pivots.collect(),
-        frictions: frictions.collect(),
+        frictions: coefficients(tree),
     }
 }
 
-/// A motion that begins to change.
+/// Returns a motion that begins to change, in numbers that carry the derivative.
 fn along(motion: &Motion, change: &Motion) -> [Vec<Dual<f64, 1>>; 2] {
     [0, 1].map(|part| {
         let both = motion[part].iter().zip(&change[part]);
@@ -230,26 +230,26 @@ fn along(motion: &Motion, change: &Motion) -> [Vec<Dual<f64, 1>>; 2] {
     })
 }
 
-/// Energy of a sector at coordinates and rates.
+/// Returns the energy of a sector, given coordinates and their rates.
 fn sector_energy<T: Scalar>(
     tree: &SymmetricTree<T>,
     sector: usize,
     [coordinates, rates]: &[Vec<T>; 2],
 ) -> T {
     let mut energies = vec![[T::from_f64(0.0); 2]; tree.sectors().len()];
-    let given = Given::Rates { coordinates, rates };
+    let given = StateInput::Rates { coordinates, rates };
     tree.energies(&mut Workspace::new(), given, &mut energies);
     let [kinetic, potential] = energies[sector];
     kinetic + potential
 }
 
 impl MeasuredTree {
-    /// Names of what is told.
+    /// Names of the reported quantities.
     pub fn names(&self) -> &Names {
         &self.names
     }
 
-    /// Coordinates that are smoothed, from angles of links or from rates.
+    /// Converts angles or angular velocities of links to the smoothed coordinates.
     pub fn coordinates(&self, links: &[f64]) -> Vec<f64> {
         let mut coordinates = vec![0.0; links.len()];
         self.tree
@@ -257,16 +257,16 @@ impl MeasuredTree {
         coordinates
     }
 
-    /// Angles or rates of links from coordinates.
+    /// Converts coordinates or their rates to angles or angular velocities of links.
     pub fn links(&self, coordinates: &[f64]) -> Vec<f64> {
         let [links, _] = self.in_links(&[coordinates.to_vec(), Vec::new()]);
         links
     }
 
-    /// The energy that is told, J.
+    /// The reported energy, J.
     pub fn energy(&self, motion: &Motion) -> f64 {
-        match &self.told {
-            Some(told) => sector_energy(&told.tree, told.sector, motion),
+        match &self.reported {
+            Some(reported) => sector_energy(&reported.tree, reported.sector, motion),
             None => {
                 let [theta, omega] = self.in_links(motion);
                 self.tree.energy_of(&theta, &omega)
@@ -274,11 +274,11 @@ impl MeasuredTree {
         }
     }
 
-    /// Change of the energy by a change of the motion, to first order about it.
+    /// Returns the change of the energy caused by a change of the motion, to first order.
     pub fn energy_along(&self, motion: &Motion, change: &Motion) -> f64 {
         let changing = along(motion, change);
-        let energy = match &self.told {
-            Some(told) => sector_energy(&told.dual, told.sector, &changing),
+        let energy = match &self.reported {
+            Some(reported) => sector_energy(&reported.dual, reported.sector, &changing),
             None => {
                 let [theta, omega] = self.in_links(&changing);
                 self.dual.energy_of(&theta, &omega)
@@ -288,11 +288,11 @@ impl MeasuredTree {
         slope
     }
 
-    /// Returns the powers at a time (s), with friction in the pivots that is told beside the
-    /// tree's own: a coefficient (N m s) for each, or none.
+    /// Returns the powers at a time (s). `friction` is the additional friction in the pivots that
+    /// is reported (N m s, one number each, or empty).
     pub fn powers(&self, time: f64, motion: &Motion, friction: &[f64]) -> Powers {
         let [theta, omega] = self.in_links(motion);
-        // Torques of the friction that is told.
+        // Torques of the reported friction.
         let mut torques = vec![0.0; theta.len()];
         let rows = self.pivots.iter().zip(friction);
         for (row, coefficient) in rows.flat_map(|(rows, c)| rows.iter().map(move |row| (row, c))) {
@@ -301,23 +301,26 @@ impl MeasuredTree {
                 *torque -= coefficient * rate * part;
             }
         }
-        let Some(Told { tree, sector, .. }) = &self.told else {
+        let Some(ReportedSector { tree, sector, .. }) = &self.reported else {
             // All that acts is in the accelerations: the power is the derivative of the energy
-            // along the motion, whatever the law of friction.
+            // along the motion, with any law of friction.
             let alpha = self.tree.accelerations(time, &theta, &omega);
             let change = [&omega, &alpha].map(|part| self.coordinates(part));
             let own = self.energy_along(motion, &change);
             let lost: f64 = torques.iter().zip(&omega).map(|(q, rate)| q * rate).sum();
             let whole = own + lost;
-            return Powers { told: whole, whole };
+            return Powers {
+                reported: whole,
+                whole,
+            };
         };
         let [coordinates, rates] = motion;
-        let given = Given::Rates { coordinates, rates };
+        let given = StateInput::Rates { coordinates, rates };
         let (mut workspace, count) = (Workspace::new(), tree.sectors().len());
         let mut transfers = vec![Transfer::default(); count];
         tree.exact_transfers(&mut workspace, given, &mut transfers);
-        let told = transfers[*sector].total();
-        let mut whole = told;
+        let reported = transfers[*sector].total();
+        let mut whole = reported;
         let drive = self.tree.drive(time).map(NonConservative::Drive);
         let acting = [
             Some(NonConservative::Friction),
@@ -329,11 +332,12 @@ impl MeasuredTree {
             tree.powers(&mut workspace, acting, given, &mut powers);
             whole += powers[*sector];
         }
-        Powers { told, whole }
+        Powers { reported, whole }
     }
 
-    /// Smooths by the equations of motion, beginning from a motion of the links. Forces that the
-    /// model lacks act on each coordinate: on copies together and against each other.
+    /// Smooths a record by the equations of motion, starting from a given motion of the links.
+    /// Forces that the model lacks act on each coordinate, that is, on copies together and against
+    /// each other.
     ///
     /// # Errors
     /// As [`SmoothingEquations::smooth`].
@@ -349,5 +353,15 @@ impl MeasuredTree {
             frictions: &self.pivots,
         };
         equations.smooth(record, guess)
+    }
+
+    /// Returns the ranges of rows in which a record violates the equations for a moment.
+    ///
+    /// # Errors
+    /// As [`LeapSearch::find`].
+    pub fn leaps(&self, record: AngleRows<'_>) -> Result<Vec<Range<usize>>, SmoothingError> {
+        let method = Rk4::new(LeapSearch::LONGEST_STEP);
+        let system = linearised(AbsoluteAngles(&self.tree));
+        LeapSearch::default().find(&method, &system, record.times, record.angles)
     }
 }

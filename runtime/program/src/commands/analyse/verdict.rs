@@ -1,29 +1,31 @@
-//! Whether the energy budget closes.
+//! Verdict on the energy budget.
 
 use super::estimate::{Estimate, quantity};
 use super::report::Trust;
 
-/// Largest chance that a closure which is nothing but noise is called a gap anywhere in a record. It
-/// is far smaller, since the closure of one time is nearly that of the next.
+/// Largest probability that noise alone causes a gap anywhere in a record. The actual probability
+/// is far smaller, because closures at neighbouring times are nearly equal.
 const CHANCE: f64 = 0.01;
 
-/// Whether the integral of the power is the change of the energy, as far as can be told.
+/// Verdict on the energy budget: the integral of the power and the change of the energy are equal
+/// within the errors, or not.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Verdict {
-    /// The first time at which the closure is not zero, s; none where the budget closes.
+    /// First time (s) at which the closure is not zero within its error; `None` if the budget
+    /// closes.
     pub fails_from: Option<f64>,
-    /// Largest closure in its deviations at the same time.
+    /// Largest closure error, in units of its standard deviation at the same time.
     pub bars: f64,
-    /// Deviations beyond which a closure is not zero.
+    /// Number of standard deviations above which a closure is not zero.
     pub allowed: f64,
-    /// The closure and its deviation at all times, of the largest energy.
+    /// The closure error and its standard deviation at all times, relative to the largest energy.
     pub closure: Vec<[f64; 2]>,
-    /// How far the estimate is to be trusted.
+    /// How far the estimate can be trusted.
     pub trust: Trust,
 }
 
 impl Verdict {
-    /// Judges an estimate whose deviations are those of so many draws.
+    /// Judges an estimate whose standard deviations come from this many draws.
     pub fn of(times: &[f64], estimate: &Estimate, draws: usize) -> Self {
         let trust = Trust::of(estimate);
         let bands = &estimate.energies;
@@ -55,15 +57,16 @@ impl Verdict {
         }
     }
 
-    /// Returns true where the budget closes.
+    /// Returns true if the energy budget closes within the errors.
     pub fn closes(&self) -> bool {
         self.fails_from.is_none()
     }
 }
 
-/// Deviations that noise alone exceeds anywhere in a record with a chance of at most [`CHANCE`]: of
-/// a normal distribution, looked at so many times (the tail of one side is below exp(−z²/2)/2), and
-/// from there of Student's t, since deviations are known from draws (Wallace's approximation).
+/// Returns the number of standard deviations that noise alone exceeds anywhere in a record with a
+/// probability of at most [`CHANCE`]: first for a normal distribution, tested at this many times
+/// (the tail of one side is below exp(−z²/2)/2), and from there of Student's t, since deviations
+/// are known from draws (Wallace's approximation).
 fn allowed(times: usize, draws: usize) -> f64 {
     let normal = (2.0 * (times.max(1) as f64 / CHANCE).ln()).sqrt();
     let freedom = draws.max(2) as f64 - 1.0;
@@ -75,9 +78,9 @@ fn allowed(times: usize, draws: usize) -> f64 {
 mod tests {
     use super::allowed;
 
-    /// The tail of the normal distribution that is allowed for is 1e-5 on either side: its quantile is
-    /// 4.265, and the bound lies a tenth above. With few draws Student's t has far longer tails
-    /// (with 20 degrees of freedom 5.53).
+    /// Checks the number of allowed standard deviations. The tail probability is 1e-5 on either
+    /// side, whose normal quantile is 4.265; the bound is 0.1 above. With few draws, Student's t
+    /// distribution has far longer tails (5.53 for 20 degrees of freedom).
     #[test]
     fn few_draws_allow_more() {
         let many = allowed(500, 1_000_000);

@@ -1,18 +1,21 @@
-//! Pictures whose angles are not those of the motion before and behind.
+//! Pictures whose angles do not fit to the motion before and after them.
 
 use super::estimate::Measured;
 
-/// Distance of an angle from where its neighbours lead, in usual ones, that is too far.
+/// Distance of an angle from its extrapolation from neighbours, in units of the usual one, that is
+/// too large.
 const FAR: f64 = 8.0;
-/// Pictures beside a wrong one that are left out with it; those no farther apart are one stretch.
-const BESIDE: usize = 3;
-/// Most stretches, and the largest part of a record that they may take.
+/// Number of neighbours of a wrong picture that are left out with it; wrong pictures that are not
+/// farther apart are joined.
+const NEIGHBOURS: usize = 3;
+/// Largest number of intervals, and largest fraction of a record that they may cover.
 const STRETCHES: usize = 6;
 const PART: f64 = 0.15;
 
-/// Stretches of time (s) in which pictures may be wrong, in up to three ways. A stretch of them shows
-/// at its ends, where the motion leaps: each leap may be all that is wrong, or what lies between
-/// two of them, or between the first and the last.
+/// Returns the time intervals (s) in which pictures may be wrong, for up to three possible
+/// interpretations. At the ends of a range of wrong pictures the measured motion leaps. Therefore
+/// either only the pictures at the leaps are wrong, or those between two successive leaps, or those
+/// between the first and the last leap.
 pub fn stretches(measured: &Measured<'_>) -> Vec<Vec<[f64; 2]>> {
     let leaps = leaps(measured);
     let pairs = |leaps: &[[usize; 2]]| match leaps.as_chunks::<2>() {
@@ -40,7 +43,7 @@ pub fn stretches(measured: &Measured<'_>) -> Vec<Vec<[f64; 2]>> {
     ways.into_iter().map(of_rows).collect()
 }
 
-/// First and last rows of the surroundings of leaps.
+/// Returns the first and last rows of the surroundings of each leap.
 fn leaps(measured: &Measured<'_>) -> Vec<[usize; 2]> {
     let times = measured.record.times;
     let rows = 0..times.len();
@@ -83,8 +86,8 @@ fn leaps(measured: &Measured<'_>) -> Vec<[usize; 2]> {
             continue;
         }
         let [first, last] = [
-            row.saturating_sub(BESIDE),
-            (row + BESIDE).min(times.len() - 1),
+            row.saturating_sub(NEIGHBOURS),
+            (row + NEIGHBOURS).min(times.len() - 1),
         ];
         match leaps.last_mut() {
             Some([_, end]) if first <= *end => *end = last,

@@ -1,5 +1,5 @@
-//! Charts: the course of the energies, the scales, the densities of the fluxes; and the
-//! tree in motion.
+//! Charts of a cascade: energies against time, energies and fluxes of the scales, distributions of
+//! the fluxes; and a film of the tree.
 
 use branched_pendulum::analysis::statistics::Average;
 use branched_pendulum_charts::{
@@ -13,8 +13,8 @@ use super::report::name;
 use super::tree::DrivenTree;
 use crate::frame::film;
 
-/// Energies of the scales against time, averaged over the starts.
-pub fn course(arguments: &Arguments, findings: &Findings) -> Chart {
+/// Draws the energies of the scales against time, averaged over the starts.
+pub fn energy_history(arguments: &Arguments, findings: &Findings) -> Chart {
     let windows = findings.course.first().map_or(0, Vec::len);
     let time = |window: usize| (window as f64 + 0.5) / arguments.frequency;
     let times: Vec<f64> = (0..windows).map(time).collect();
@@ -37,8 +37,10 @@ pub fn course(arguments: &Arguments, findings: &Findings) -> Chart {
     Chart::new("Energy by scale, mean of all starts", Axis::linear("t (s)")).panel(panel)
 }
 
-/// Energy per degree of freedom, and flux, by scale; none where nothing has settled.
+/// Draws the energy per degree of freedom and the flux of each scale; `None` if nothing has reached
+/// a steady state.
 pub fn scales(
+    arguments: &Arguments,
     driven: &DrivenTree,
     findings: &Findings,
     equilibrium: Option<&Equilibrium>,
@@ -82,31 +84,29 @@ pub fn scales(
     let flux = averages(flux, "flux into the scale by W", &given);
     let mut flux = averages(flux, "dissipated there and below", &lost);
     if let Ok(input) = &findings.input {
-        flux = flux.points("motor", &[0.0], &[1e3 * input.mean]);
+        flux = averages(flux, arguments.source(), &[milliwatts(0.0, input)]);
     }
     let chart = Chart::new(
-        "The steady state by scale; bands: one standard error",
-        Axis::linear("generation in which the branches differ (0: means)"),
+        "The steady state by scale; bars: one standard error",
+        Axis::linear("generation in which the branches differ (0: means)").whole(),
     )
     .columns(2)
     .size(1100.0, 480.0);
     Some(chart.panel(energy).panel(flux))
 }
 
-/// Adds averages, each with its place before it and its error behind.
+/// Adds averages with error bars to a panel; each row is position, value and error.
 fn averages(panel: Panel, label: &str, rows: &[[f64; 3]]) -> Panel {
     let column = |value: fn(&[f64; 3]) -> f64| rows.iter().map(value).collect::<Vec<f64>>();
     let (x, mean) = (column(|row| row[0]), column(|row| row[1]));
-    let (low, high) = (column(|row| row[1] - row[2]), column(|row| row[1] + row[2]));
-    panel
-        .band(label, &x, &low, &high)
-        .series(Series::line(label, &x, &mean).with_symbols())
+    let line = Series::line(label, &x, &mean).with_symbols();
+    panel.series(line.errors(&column(|row| row[2])))
 }
 
-/// Color of what is there to be compared with, which no scale has.
+/// Colour of values for comparison; no scale has it.
 const GREY: Color = Color::rgb(150, 150, 150);
 
-/// Densities of the fluxes, of zero mean and unit variance.
+/// Draws the distributions of the fluxes, scaled to zero mean and unit variance.
 pub fn densities(findings: &Findings) -> Chart {
     let mut panel = Panel::new(Axis::log("density").range(1e-6, 3.0));
     for (index, density) in findings.densities.iter().enumerate() {
@@ -130,10 +130,10 @@ pub fn densities(findings: &Findings) -> Chart {
     .panel(panel)
 }
 
-/// The tree through states that follow each other by `interval` seconds.
+/// Creates a film of the tree from states that are `interval` seconds apart.
 ///
 /// # Errors
-/// [`ChartError`] if there is nothing to be seen.
+/// [`ChartError`] if there is nothing to show.
 pub fn film(driven: &DrivenTree, states: &[Vec<f64>], interval: f64) -> Result<Film, ChartError> {
     let tree = &driven.subject.tree;
     let angles = |state: &Vec<f64>| film::angles(tree, &state[..driven.links()]);

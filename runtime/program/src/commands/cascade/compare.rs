@@ -1,11 +1,14 @@
-//! Several cascades beside each other: compensated spectra, fluxes, and the equilibrium.
+//! Comparison of several cascades: compensated spectra, fluxes, and the equilibrium.
 //!
-//! Where gravity does not matter, a scale of the energy E_s, of rods of the mass M_s together and
-//! the length ℓ_s, has the speed u_s = √(E_s/M_s) and the time ℓ_s/u_s. If it hands on its energy in
-//! that time, the flux is Π = E_s u_s/ℓ_s, and so E_s = M_s^{1/3} (Π ℓ_s)^{2/3}: Kolmogorov's
-//! two-thirds law for a tree. That is a hypothesis. The compensated spectrum is the energy over
-//! this one, level where the law holds. Beside it stands the flatness of W, which grows from scale
-//! to scale where a cascade is intermittent.
+//! If gravity is negligible, a scale with energy E_s and mass M_s, whose oldest rods have the length
+//! ℓ_s, has the speed u_s = √(E_s/M_s) and the time scale ℓ_s/u_s. If it passes its energy in that
+//! time, the flux is Π = E_s u_s/ℓ_s, and so E_s = M_s^{1/3} (Π ℓ_s)^{2/3}: Kolmogorov's two-thirds law
+//! for a tree. This is a hypothesis. It leaves open which mass M_s is, so that exponents are reported
+//! for several definitions.
+//!
+//! The compensated spectrum is the energy divided by that of the law, with the mass of the oldest rods
+//! once for each generation that moves in the scale. It is constant where the law holds. The flatness
+//! of W next to it increases from scale to scale if a cascade is intermittent.
 
 use std::path::{Path, PathBuf};
 
@@ -13,55 +16,45 @@ use branched_pendulum::analysis::statistics::Estimate;
 use branched_pendulum_charts::{Axis, Chart, Panel, Series, verbatim};
 use branched_pendulum_data::{Table, TableOptions};
 
+use super::findings::LEVEL;
+use super::laws::{
+    KOLMOGOROV, OF_EACH_GENERATION, OF_GENERATION, OF_SUBTREES, ScaleOfRun, compare, exponent,
+    families, joint_exponents,
+};
+use super::structure::level_range;
 use crate::Failure;
 use crate::frame::Job;
 
-/// Deviation of a flux that counts as constant.
-const LEVEL: f64 = 0.05;
-
-/// The exponent of Π ℓ_s in the hypothesis.
-const KOLMOGOROV: f64 = 2.0 / 3.0;
-
-/// A scale of a finished run.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct ScaleOfRun {
-    /// Number of the scale.
-    scale: usize,
-    /// Length of a link, m.
-    length: f64,
-    /// Mass of all links of the generation, kg.
-    mass: f64,
-    /// Energy, J.
-    energy: Estimate,
-    /// Power that friction takes there and below, W.
-    flux: f64,
-    /// Energy in equilibrium at the same energy of all, J.
-    equilibrium: Option<f64>,
-    /// Flatness of the density of W into the scale and all younger ones.
-    flatness: Option<Estimate>,
-}
+/// Name of the table that a finished run has written.
+const TABLE: &str = "scales.csv";
 
 /// A finished run.
 #[derive(Clone, Debug, PartialEq)]
 struct FinishedRun {
     name: String,
+    /// Power that friction removes at all scales, in W; NaN if it has no average.
+    input: f64,
+    /// Scales whose energy and flux have an average.
     rows: Vec<ScaleOfRun>,
 }
 
-/// Draws the runs in these folders beside each other, and says where their fluxes are constant
-/// and what the energies are there.
+/// Draws the runs in these folders in one chart, and reports where their fluxes are constant and
+/// the energies there.
 ///
 /// # Errors
-/// [`Failure::Reading`] of a folder without a table `scales.csv` of this program,
-/// [`Failure::Lacking`] of a run none of whose differences has an average.
+/// [`Failure::Reading`] if a folder has no table `scales.csv` of this program, [`Failure::Lacking`]
+/// if no scale of differences of a run has an average.
 pub fn run(folders: &[PathBuf], job: &Job) -> Result<(), Failure> {
     let spectra = folders.iter().map(|folder| FinishedRun::read(folder));
     let spectra = spectra.collect::<Result<Vec<FinishedRun>, Failure>>()?;
+    for folder in folders {
+        job.input_file(&folder.join(TABLE))?;
+    }
     if let Some(short) = spectra.iter().find(|own| own.differences().is_empty()) {
         return Err(Failure::Lacking {
             what: format!(
-                "no difference in `{}` has an average energy and flux: run it for longer, by \
-                 `--duration`",
+                "no scale of differences in `{}` has an average energy and flux: run it for a \
+                 longer time by `--duration`",
                 short.name
             ),
         });
@@ -75,14 +68,18 @@ pub fn run(folders: &[PathBuf], job: &Job) -> Result<(), Failure> {
 
 impl FinishedRun {
     fn read(folder: &Path) -> Result<Self, Failure> {
-        let table = Table::read(folder.join("scales.csv"), &TableOptions::default())?;
+        let table = Table::read(folder.join(TABLE), &TableOptions::default())?;
         let column = |name: &str| -> Result<Vec<Option<f64>>, Failure> {
             Ok(table.values(table.column(name)?)?.to_vec())
         };
         let scale = column("scale")?;
         let [length, mass] = [column("length")?, column("mass")?];
+        let subtrees = column("mass of subtrees")?;
         let [energy, error] = [column("energy")?, column("error of energy")?];
-        let flux = column("flux by dissipation")?;
+        let [flux, flux_error] = [
+            column("flux by dissipation")?,
+            column("error of flux by dissipation")?,
+        ];
         let equilibrium = match table.column("energy in equilibrium") {
             Ok(place) => table.values(place)?.to_vec(),
             // The run did not ask for it.
@@ -92,15 +89,19 @@ impl FinishedRun {
             [column("flatness of W")?, column("error of flatness of W")?];
         let row = |place: usize| {
             let at = |list: &[Option<f64>]| list.get(place).copied().flatten();
+            let scale = at(&scale)? as usize;
             Some(ScaleOfRun {
-                scale: at(&scale)? as usize,
+                scale,
+                generations: table.rows().saturating_sub(scale),
                 length: at(&length)?,
                 mass: at(&mass)?,
+                subtrees: at(&subtrees)?,
                 energy: Estimate {
                     value: at(&energy)?,
                     error: at(&error)?,
                 },
                 flux: at(&flux)?,
+                flux_error: at(&flux_error)?,
                 equilibrium: at(&equilibrium),
                 flatness: at(&flatness)
                     .zip(at(&flatness_error))
@@ -110,94 +111,47 @@ impl FinishedRun {
         let name = folder.file_name().unwrap_or(folder.as_os_str());
         Ok(Self {
             name: name.to_string_lossy().into_owned(),
+            input: flux.first().copied().flatten().unwrap_or(f64::NAN),
             rows: (0..table.rows()).filter_map(row).collect(),
         })
     }
 
-    /// Power that friction takes in all scales, W; NaN where it has no average.
-    fn input(&self) -> f64 {
-        let means = self.rows.first().filter(|row| row.scale == 0);
-        means.map_or(f64::NAN, |row| row.flux)
-    }
-
-    /// The differences, from scale 1 on.
+    /// Returns the scales of differences, from scale 1 on.
     fn differences(&self) -> &[ScaleOfRun] {
         let means = self.rows.iter().take_while(|row| row.scale == 0).count();
         self.rows.get(means..).unwrap_or_default()
     }
 
-    /// The longest stretch of differences, one after the other, whose fluxes lie within five per
-    /// cent of each other.
+    /// Returns the longest range of successive scales of differences whose fluxes lie within five
+    /// per cent of each other.
     fn inner(&self) -> &[ScaleOfRun] {
         let rows = self.differences();
-        let mut longest: &[ScaleOfRun] = &[];
-        for first in 0..rows.len() {
-            for end in first + 1..=rows.len() {
-                let own = &rows[first..end];
-                let fluxes = || own.iter().map(|row| row.flux);
-                let is_whole = own
-                    .windows(2)
-                    .all(|pair| pair[1].scale == pair[0].scale + 1);
-                let (least, most) = (
-                    fluxes().fold(f64::INFINITY, f64::min),
-                    fluxes().fold(0.0, f64::max),
-                );
-                if is_whole && most - least <= LEVEL * most && own.len() > longest.len() {
-                    longest = own;
-                }
+        let scales = rows.last().map_or(0, |last| last.scale + 1);
+        // A scale without an average has no number.
+        let mut fluxes = vec![f64::NAN; scales];
+        for row in rows {
+            if let Some(flux) = fluxes.get_mut(row.scale) {
+                *flux = row.flux;
             }
         }
-        longest
+        let range = level_range(&fluxes, LEVEL);
+        let before = rows
+            .iter()
+            .take_while(|row| row.scale < range.start)
+            .count();
+        rows.get(before..before + range.len()).unwrap_or_default()
     }
-}
-
-impl ScaleOfRun {
-    /// Π ℓ_s, W m.
-    fn pushed(&self) -> f64 {
-        self.flux * self.length
-    }
-
-    /// The energy over that of the hypothesis.
-    fn compensated(&self) -> f64 {
-        self.energy.value / (self.mass.cbrt() * self.pushed().powf(KOLMOGOROV))
-    }
-}
-
-/// The exponent a of E_s/M_s^{1/3} ∝ (Π ℓ_s)^a by weighted least squares, with an error bar that
-/// grows with the misfit; none of fewer than three scales, and without error bars.
-fn exponent(rows: &[ScaleOfRun]) -> Option<Estimate> {
-    let measured = rows.iter().all(|row| row.energy.error > 0.0);
-    if rows.len() < 3 || !measured {
-        return None;
-    }
-    let points = rows.iter().map(|row| {
-        let y = (row.energy.value / row.mass.cbrt()).ln();
-        let weight = (row.energy.value / row.energy.error).powi(2);
-        (row.pushed().ln(), y, weight)
-    });
-    let points: Vec<(f64, f64, f64)> = points.collect();
-    let sum = |value: &dyn Fn(&(f64, f64, f64)) -> f64| points.iter().map(value).sum::<f64>();
-    let total = sum(&|(_, _, w)| *w);
-    let (x, y) = (
-        sum(&|(x, _, w)| w * x) / total,
-        sum(&|(_, y, w)| w * y) / total,
-    );
-    let spread = sum(&|(own, _, w)| w * (own - x).powi(2));
-    let slope = sum(&|(own, value, w)| w * (own - x) * (value - y)) / spread;
-    let misfit = sum(&|(own, value, w)| w * (value - y - slope * (own - x)).powi(2));
-    let misfit = (misfit / (points.len() - 2) as f64).max(1.0);
-    Some(Estimate {
-        value: slope,
-        error: (misfit / spread).sqrt(),
-    })
 }
 
 fn report(spectra: &[FinishedRun]) -> String {
     let mut text = format!(
         "| run | flux constant within {:.0} % over scales | flux there and below, parts of the input | \
-         exponent of Π ℓ | E_s/E_s in equilibrium there | flatness of W there |\n\
-         |---|---|---|---|---|---|\n",
-        100.0 * LEVEL
+         exponent of Π ℓ, {} | the same, {} | the same, {} | E_s/E_s in equilibrium there | flatness of W there |\n\
+         |---|---|---|---|---|---|---|---|\n",
+        100.0 * LEVEL,
+        OF_SUBTREES.0,
+        OF_GENERATION.0,
+        OF_EACH_GENERATION.0,
     );
     for spectrum in spectra {
         let inner = spectrum.inner();
@@ -205,19 +159,21 @@ fn report(spectra: &[FinishedRun]) -> String {
             [first, .., last] => format!("{} to {}", first.scale, last.scale),
             _ => "none".to_owned(),
         };
-        let input = spectrum.input();
+        let input = spectrum.input;
         let listed = |value: &dyn Fn(&ScaleOfRun) -> Option<String>| {
             let values: Vec<String> = inner.iter().filter_map(value).collect();
             values.join(", ")
         };
-        let exponent = match exponent(inner) {
-            Some(own) => format!("{:.2} ± {:.2}", own.value, own.error),
+        let masses = [OF_SUBTREES, OF_GENERATION, OF_EACH_GENERATION];
+        let exponents = masses.map(|mass| match exponent(inner, mass) {
+            Some(own) => shown(own),
             None => "–".to_owned(),
-        };
+        });
         text += &format!(
-            "| {} | {range} | {} | {exponent} | {} | {} |\n",
+            "| {} | {range} | {} | {} | {} | {} |\n",
             spectrum.name,
             listed(&|row| Some(format!("{:.3}", row.flux / input))),
+            exponents.join(" | "),
             listed(&|row| Some(format!("{:.3}", row.energy.value / row.equilibrium?))),
             listed(&|row| row
                 .flatness
@@ -226,7 +182,67 @@ fn report(spectra: &[FinishedRun]) -> String {
         .replace("| -", "| −");
     }
     text += &format!("\nThe two-thirds law has the exponent {KOLMOGOROV:.3}.\n");
+    text += &between(spectra);
+    let ranges: Vec<&[ScaleOfRun]> = spectra.iter().map(FinishedRun::inner).collect();
+    for own in [OF_SUBTREES, OF_EACH_GENERATION] {
+        if let Some([mass, flux]) = joint_exponents(&ranges, own) {
+            let fit = format!(
+                "\nAll runs together, E ∝ M^a (Π ℓ)^b with {}: a = {}, b = {}; the law has 1/3 and 2/3.\n",
+                own.0,
+                shown(mass),
+                shown(flux),
+            );
+            text += &fit;
+        }
+    }
     text
+}
+
+/// Returns the exponents between runs of one family of trees with different numbers of generations,
+/// and those of all families together; empty if there are none.
+fn between(spectra: &[FinishedRun]) -> String {
+    let mut rows = String::new();
+    let mut pairs = Vec::new();
+    for (index, first) in spectra.iter().enumerate() {
+        for second in &spectra[index + 1..] {
+            let Some(pair) = compare(first.inner(), second.inner()) else {
+                continue;
+            };
+            let generations: Vec<String> = pair.generations.iter().map(usize::to_string).collect();
+            rows += &format!(
+                "| {} | {} | {} | {} |\n",
+                first.name,
+                second.name,
+                generations.join(", "),
+                shown(pair.exponent),
+            );
+            pairs.push(pair);
+        }
+    }
+    if rows.is_empty() {
+        return rows;
+    }
+    let mut text = format!(
+        "\n| from | to | generations from the scale on | exponent of ℓ between them |\n\
+         |---|---|---|---|\n{rows}"
+    );
+    if let Some(own) = families(&pairs) {
+        text += &format!(
+            "\n{} families, by the pair of each with the smallest error bar: the exponent of ℓ is {} if \
+             that of m is 1/3; fitted together that of m is {} and that of ℓ is {}, with a χ² of {:.1}.\n",
+            own.count,
+            shown(own.length_alone),
+            shown(own.mass),
+            shown(own.length),
+            own.chi_squared,
+        );
+    }
+    text
+}
+
+/// Returns a number with its error bar.
+fn shown(own: Estimate) -> String {
+    format!("{:.3} ± {:.3}", own.value, own.error).replace('-', "−")
 }
 
 fn chart(spectra: &[FinishedRun]) -> Chart {
@@ -251,7 +267,7 @@ fn chart(spectra: &[FinishedRun]) -> Chart {
                     }
                 }
             };
-        let input = spectrum.input();
+        let input = spectrum.input;
         let differences = spectrum.differences();
         compensated = line(compensated, differences, &|row| Some(row.compensated()));
         flux = line(flux, differences, &|row| Some(row.flux / input));
@@ -273,39 +289,8 @@ fn chart(spectra: &[FinishedRun]) -> Chart {
 
 #[cfg(test)]
 mod tests {
-    use super::{FinishedRun, ScaleOfRun, exponent};
-    use branched_pendulum::analysis::statistics::Estimate;
-
-    fn row(scale: usize, energy: f64, flux: f64) -> ScaleOfRun {
-        ScaleOfRun {
-            scale,
-            length: 0.7_f64.powi(scale as i32),
-            mass: 0.1 * 0.8_f64.powi(scale as i32),
-            energy: Estimate {
-                value: energy,
-                error: 0.01 * energy,
-            },
-            flux,
-            equilibrium: None,
-            flatness: None,
-        }
-    }
-
-    #[test]
-    fn a_spectrum_of_the_two_thirds_law_is_level() {
-        let rows = (0..6).map(|scale| {
-            let own = row(scale, 1.0, 0.2);
-            let energy = 3.0 * own.mass.cbrt() * own.pushed().powf(2.0 / 3.0);
-            row(scale, energy, 0.2)
-        });
-        let rows: Vec<ScaleOfRun> = rows.collect();
-        for own in &rows {
-            assert!((own.compensated() - 3.0).abs() < 1e-12);
-        }
-        let found = exponent(&rows).unwrap();
-        assert!((found.value - 2.0 / 3.0).abs() < 1e-12 && found.error > 0.0);
-        assert!(exponent(&rows[..2]).is_none());
-    }
+    use super::FinishedRun;
+    use crate::commands::cascade::laws::tests::row;
 
     #[test]
     fn the_inner_scales_are_the_longest_level_stretch() {
@@ -313,7 +298,11 @@ mod tests {
         let rows = fluxes.iter().enumerate();
         let rows = rows.map(|(scale, flux)| row(scale, 1.0, *flux)).collect();
         let name = String::new();
-        let spectrum = FinishedRun { name, rows };
+        let spectrum = FinishedRun {
+            name,
+            input: 1.0,
+            rows,
+        };
         let inner: Vec<usize> = spectrum.inner().iter().map(|row| row.scale).collect();
         assert_eq!(inner, [1, 2, 3]);
         // A scale that has no average ends a stretch.

@@ -1,35 +1,36 @@
-//! How often a power has which value.
+//! Histogram of the values of a power.
 
 use serde::{Deserialize, Serialize};
 
-/// Powers below this share the middle bin, W.
+/// Power (W) below which values fall into the middle bin.
 const LEAST: f64 = 1e-9;
 
-/// Bins in a factor of e.
+/// Number of bins per factor of e.
 const BINS: f64 = 12.0;
 
-/// Bins on either side of the middle: up to 100 W and more.
+/// Number of bins on either side of the middle: up to more than 100 W.
 const SIDE: usize = 320;
 
-/// Counts of a power in bins that grow with it, and its moments. Counts of several starts
-/// add up.
+/// Histogram of a power, with bins that widen with the power, and its moments. Histograms of
+/// several starts can be added.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Density {
     counts: Vec<u32>,
-    /// Sums of the power and of its powers up to the fourth.
+    /// Sums of the power P, P², P³ and P⁴.
     sums: [f64; 4],
 }
 
-/// What a density is like.
+/// Shape of a density.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Moments {
     /// W̄ = ⟨W⟩.
     pub mean: f64,
     /// Standard deviation σ.
     pub deviation: f64,
-    /// ⟨(W − W̄)³⟩/σ³, zero of what is as often above its mean as below.
+    /// Skewness ⟨(W − W̄)³⟩/σ³: zero for a symmetric distribution.
     pub skewness: f64,
-    /// ⟨(W − W̄)⁴⟩/σ⁴, three of a normal distribution and more where bursts are rare and strong.
+    /// Flatness ⟨(W − W̄)⁴⟩/σ⁴: three for a normal distribution, larger if bursts are rare and
+    /// strong.
     pub flatness: f64,
 }
 
@@ -55,7 +56,7 @@ impl Density {
         }
     }
 
-    /// Adds the counts of another start.
+    /// Adds the histogram of another start.
     pub fn add(&mut self, other: &Self) {
         for (count, more) in self.counts.iter_mut().zip(&other.counts) {
             *count += more;
@@ -70,7 +71,7 @@ impl Density {
         self.counts.iter().map(|count| f64::from(*count)).sum()
     }
 
-    /// Returns what the density is like.
+    /// Returns mean, standard deviation, skewness and flatness of the distribution.
     pub fn moments(&self) -> Moments {
         let number = self.samples();
         let [mean, second, third, fourth] = self.sums.map(|sum| sum / number);
@@ -86,7 +87,7 @@ impl Density {
         }
     }
 
-    /// The density of (W − W̄)/σ, at the middles of the bins that are not empty. Bins
+    /// Returns the density of (W − W̄)/σ at the middles of all bins that are not empty. Bins
     /// narrower than `width` are joined.
     pub fn standardised(&self, width: f64) -> Vec<(f64, f64)> {
         let Moments {

@@ -1,23 +1,31 @@
-//! Averages over all starts, with their errors.
+//! Averages over all starts of a cascade, with their errors.
+
+use std::iter;
 
 use branched_pendulum::analysis::statistics::{
     Average, Drift, Estimate, StatisticsError, jackknife, transient,
 };
 
+use super::balance::Balance;
+use super::budgets::QUANTITIES;
 use super::density::{Density, Moments};
-use super::motion::{Followed, QUANTITIES};
+use super::motion::Followed;
+use super::structure::{Structure, level_range};
 use super::tree::DrivenTree;
 
-/// A scale sleeps if a degree of freedom of it has less than this part of the energy of
-/// one of the means: too much friction, or too short a run to wake it.
+/// Energy per degree of freedom, relative to that of the means, below which a scale counts as
+/// asleep: it has too much friction, or the run is too short to excite it.
 const ASLEEP: f64 = 1e-6;
+
+/// Deviation of a flux that counts as constant.
+pub const LEVEL: f64 = 0.05;
 
 /// Which quantity of a scale.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Quantity {
     /// Energy, J.
     Energy,
-    /// Power that the other scales give, W.
+    /// Power received from the other scales, in W.
     Received,
     /// Power of the friction, W.
     Friction,
@@ -25,83 +33,73 @@ pub enum Quantity {
     Drive,
 }
 
-/// Largest error bar of a balance that says something, in parts of the motor's power.
-const LARGEST_BAR: f64 = 0.1;
-
-/// What the powers of motor and friction say of the integration.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Balance {
-    /// The powers are equal within three error bars, of a tenth of the motor's power at most.
-    Closed,
-    /// The powers differ by more than three error bars: the steps are too long.
-    Lost,
-    /// The error bars are too wide to say, or there are none.
-    Undecided,
-}
-
 /// The state of a scale.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ScaleState {
-    /// Energy of the scale, J, in the steady state.
+    /// The scale has a steady mean energy, in J.
     Awake(Average),
-    /// It hardly moves: its mean energy, J.
+    /// The scale hardly moves; its mean energy, in J.
     Asleep(f64),
-    /// The energy has no average, and why.
+    /// The energy has no steady average, for this reason.
     Unsettled(StatisticsError),
 }
 
-/// Power that passes into a scale and all younger ones.
+/// Power that passes into a scale and all younger ones, computed in two ways.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Flux {
-    /// By the integral of W along the motion, W.
+    /// From the energy transfers W along the motion, in W.
     pub transferred: Average,
-    /// Power of friction there less that of the motor, W.
+    /// From the powers: friction in these scales minus that of the motor, in W.
     pub dissipated: Average,
-    /// The first less the second: the rate of the energy there, which has no mean.
+    /// Difference of the two, which is the rate of change of the energy of these scales; its mean
+    /// is zero in a steady state.
     pub gap: Average,
-    /// Skewness of the density of W.
+    /// Skewness of the distribution of W.
     pub skewness: Option<Estimate>,
-    /// Flatness of the density of W.
+    /// Flatness of the distribution of W.
     pub flatness: Option<Estimate>,
 }
 
 /// A line through logarithms.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PowerLaw {
-    /// Slope of ln(energy per degree of freedom) against ln(length of the links).
+    /// Slope of ln(energy per degree of freedom) as a function of ln(length of the links).
     pub exponent: Estimate,
-    /// Sum of the squares of the deviations from the line in units of their errors, over
-    /// the number of points less two. Far above 1 there is no power law.
+    /// Sum of the squared deviations from the line in units of their errors, divided by the number
+    /// of points minus two. Values far above 1 mean that there is no power law.
     pub misfit: f64,
 }
 
 /// Averages over all starts.
 #[derive(Clone, Debug)]
 pub struct Findings {
-    /// Windows that were left out of all averages, by MSER-5 of the mean energy.
+    /// Number of windows at the start that are left out of all averages, determined by MSER-5 from
+    /// the mean energy.
     pub transient: Result<usize, StatisticsError>,
-    /// Mean energy over all starts, window by window, by scale, J.
+    /// Mean energy (J) over all starts, for each window and scale.
     pub course: Vec<Vec<f64>>,
-    /// Drift of the energy after the transient.
+    /// Drift of the energy after the initial transient.
     pub drift: Result<Drift, StatisticsError>,
-    /// The scales, from the means on.
+    /// State of each scale, beginning with the means.
     pub scales: Vec<ScaleState>,
     /// Power of the motor, W.
     pub input: Result<Average, StatisticsError>,
-    /// Power of all friction, W, positive.
+    /// Power removed by all friction, in W; positive.
     pub dissipation: Result<Average, StatisticsError>,
-    /// The one less the other, W: what the steps of the integrator have lost.
+    /// Difference of the two powers, in W: energy that integration errors have added or removed.
     pub loss: Result<Average, StatisticsError>,
-    /// Powers that pass into scale s and all younger ones, s = 1, 2, ….
+    /// Powers that pass into scale s and all younger ones, for s = 1, 2, ….
     pub fluxes: Vec<Result<Flux, StatisticsError>>,
     /// Densities of the fluxes.
     pub densities: Vec<Density>,
-    /// Energy per degree of freedom of the differences, against length.
+    /// Power law of the energy per degree of freedom of the differences, against length.
     pub law: Option<PowerLaw>,
+    /// Moments of the amplitudes over the scales of constant flux.
+    pub structure: Structure,
 }
 
 impl Findings {
-    /// Evaluates the windows of all starts.
+    /// Computes all averages from the windows of all starts.
     pub fn new(driven: &DrivenTree, starts: &[Followed]) -> Self {
         let series = LaterWindows {
             scales: driven.generations(),
@@ -109,7 +107,7 @@ impl Findings {
             first: 0,
         };
         let course: Vec<Vec<f64>> = (0..series.scales)
-            .map(|scale| series.course(scale))
+            .map(|scale| series.energy_history(scale))
             .collect();
         let total: Vec<f64> = (0..series.windows())
             .map(|window| course.iter().map(|energies| energies[window]).sum())
@@ -138,15 +136,23 @@ impl Findings {
             }
         }
         let fluxes = (1..series.scales).map(|scale| series.flux(scale));
+        let fluxes: Vec<Result<Flux, StatisticsError>> = fluxes.collect();
+        let dissipation = Average::of(&of(Quantity::Friction, all.clone(), -1.0));
+        let lost = |flux: &Result<Flux, _>| flux.map_or(f64::NAN, |own| own.dissipated.mean);
+        let whole = dissipation.map_or(f64::NAN, |own| own.mean);
+        let powers: Vec<f64> = iter::once(whole).chain(fluxes.iter().map(lost)).collect();
+        let range = level_range(&powers, LEVEL);
+        let amplitudes: Vec<_> = starts.iter().map(|own| own.amplitudes.as_slice()).collect();
         Self {
+            structure: Structure::new(driven, &amplitudes, range, &powers),
             drift: Drift::of(&energy),
             input: Average::of(&of(Quantity::Drive, all.clone(), 1.0)),
             loss: Average::of(&series.sums(|row| {
                 let power = |s| at(row, s, Quantity::Friction) + at(row, s, Quantity::Drive);
                 all.clone().map(power).sum::<f64>()
             })),
-            dissipation: Average::of(&of(Quantity::Friction, all, -1.0)),
-            fluxes: fluxes.collect(),
+            dissipation,
+            fluxes,
             law: power_law(driven, &scales, &series),
             transient,
             course,
@@ -155,7 +161,7 @@ impl Findings {
         }
     }
 
-    /// Mean energy of all scales together behind the transient, J.
+    /// Returns the mean total energy of all scales after the transient, in J.
     pub fn energy(&self) -> f64 {
         let windows = self.course.first().map_or(0, Vec::len);
         let first = self.transient.unwrap_or(windows / 2).min(windows);
@@ -166,31 +172,25 @@ impl Findings {
         sums.sum::<f64>() / (windows - first).max(1) as f64
     }
 
-    /// Returns whether friction takes what the motor gives.
+    /// Checks if friction removes the power that the motor supplies.
     pub fn balance(&self) -> Balance {
-        match (&self.loss, &self.input) {
-            (Ok(loss), _) if loss.mean.abs() > 3.0 * loss.error => Balance::Lost,
-            (Ok(loss), Ok(input)) if loss.error <= LARGEST_BAR * input.mean.abs() => {
-                Balance::Closed
-            }
-            _ => Balance::Undecided,
-        }
+        Balance::of(&self.loss, &self.input, self.is_steady())
     }
 
-    /// True if the transient has ended and the energy does not drift.
+    /// Returns true if the transient has ended and the energy does not drift.
     pub fn is_steady(&self) -> bool {
         self.transient.is_ok() && self.drift.is_ok_and(|drift| drift.is_within(2.0))
     }
 }
 
-/// A quantity in a row of means.
+/// Returns the value of a quantity of one scale, from a row of mean values.
 fn at(row: &[f64], scale: usize, quantity: Quantity) -> f64 {
     row.get(QUANTITIES * scale + quantity as usize)
         .copied()
         .unwrap_or(f64::NAN)
 }
 
-/// Windows of the starts from one on.
+/// The windows of all starts after the transient.
 #[derive(Clone, Copy)]
 struct LaterWindows<'a> {
     scales: usize,
@@ -204,7 +204,7 @@ impl LaterWindows<'_> {
         numbers / (QUANTITIES * self.scales)
     }
 
-    /// A function of each window, one series a start.
+    /// Computes a quantity of each window; returns one series per start.
     fn sums(&self, value: impl Fn(&[f64]) -> f64) -> Vec<Vec<f64>> {
         let rows = |start: &Followed| {
             let rows = start.windows.chunks_exact(QUANTITIES * self.scales);
@@ -213,8 +213,8 @@ impl LaterWindows<'_> {
         self.starts.iter().map(rows).collect()
     }
 
-    /// Energies of a scale, averaged over the starts.
-    fn course(&self, scale: usize) -> Vec<f64> {
+    /// Returns the energy of a scale in each window, averaged over the starts.
+    fn energy_history(&self, scale: usize) -> Vec<f64> {
         let all = self.sums(|row| at(row, scale, Quantity::Energy));
         (0..self.windows() - self.first)
             .map(|window| {
@@ -226,11 +226,11 @@ impl LaterWindows<'_> {
 
     /// Mean energy of a scale.
     fn mean(&self, scale: usize) -> f64 {
-        let course = self.course(scale);
+        let course = self.energy_history(scale);
         course.iter().sum::<f64>() / course.len() as f64
     }
 
-    /// The state of a scale, which sleeps where its mean energy is at most `least`.
+    /// Returns the state of a scale; it is asleep if its mean energy is at most `least`.
     fn state(&self, scale: usize, least: f64) -> ScaleState {
         let mean = self.mean(scale);
         if mean <= least {
@@ -242,7 +242,7 @@ impl LaterWindows<'_> {
         }
     }
 
-    /// Power that passes into a scale and all younger ones.
+    /// Computes the power that passes into a scale and all younger ones.
     fn flux(&self, scale: usize) -> Result<Flux, StatisticsError> {
         let below = scale..self.scales;
         let lost = |row: &[f64]| {
@@ -265,7 +265,7 @@ impl LaterWindows<'_> {
     }
 }
 
-/// A moment of the density of a flux; none of a single start.
+/// Returns a moment of the distribution of a flux with its error; `None` for a single start.
 fn shape(starts: &[Followed], flux: usize, of: impl Fn(Moments) -> f64) -> Option<Estimate> {
     let estimate = jackknife(starts.len(), |left_out| {
         let mut all = Density::default();
@@ -281,8 +281,8 @@ fn shape(starts: &[Followed], flux: usize, of: impl Fn(Moments) -> f64) -> Optio
     estimate.ok()
 }
 
-/// The law E/n ∝ ℓ^p of the differences that are awake, ℓ the length of the oldest links that take
-/// part, if there are three.
+/// Fits the power law E/n ∝ ℓ^p to the differences that are awake, with the energy E per degree of
+/// freedom n and the length ℓ of the oldest links involved; `None` for fewer than three scales.
 fn power_law(
     driven: &DrivenTree,
     scales: &[ScaleState],
@@ -342,7 +342,7 @@ fn power_law(
     })
 }
 
-/// Slope of the line of least squares, and its misfit.
+/// Returns the slope of the least-squares line, and its misfit.
 fn line(weights: &[f64], x: &[f64], y: &[f64]) -> (f64, f64) {
     let sum = |value: &dyn Fn(usize) -> f64| -> f64 {
         weights

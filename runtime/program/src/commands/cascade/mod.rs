@@ -1,29 +1,35 @@
-//! A tree with a driven root and friction: does the energy go down the generations, and what
-//! is there of it at each scale?
+//! Energy cascade in a tree with a driven root and friction: does energy flow down the generations,
+//! and how much energy does each scale have?
 //!
 //! - [`arguments`]: the command line, [`tree`]: the tree and its scales, [`motor`]: the torque,
-//! - [`motion`]: all starts, in lanes, window by window, with checkpoints,
-//! - [`density`]: how often a flux has which value,
+//! - [`motion`]: all starts, in lanes, window by window, with checkpoints, [`budgets`]: budgets of
+//!   states, and sums of them,
+//! - [`density`]: histograms of the fluxes, [`structure`]: moments of the amplitudes,
 //! - [`equilibrium`]: the same energy without motor and friction,
-//! - [`findings`]: averages with errors, [`report`]: tables, [`charts`]: charts
-//!   and a film,
-//! - [`compare`]: several runs beside each other,
+//! - [`findings`]: averages with errors, [`balance`]: check of the integration, [`report`]: tables,
+//!   [`charts`]: charts and a film,
+//! - [`compare`]: comparison of several runs, `laws`: exponents of their spectra,
 //! - [`onset`]: a tree, sector by sector, from a release almost in phase.
 
 pub mod arguments;
+pub mod balance;
+pub mod budgets;
 pub mod charts;
 pub mod compare;
 pub mod density;
 pub mod equilibrium;
 pub mod findings;
+mod laws;
 pub mod motion;
 pub mod motor;
 pub mod onset;
 pub mod report;
+pub mod structure;
 pub mod tree;
 
 pub use arguments::Arguments;
-pub use findings::{Balance, Findings};
+pub use balance::Balance;
+pub use findings::Findings;
 
 use crate::Failure;
 use crate::frame::{Checkpoint, Job, sweep};
@@ -31,12 +37,12 @@ use equilibrium::Equilibrium;
 use motion::{Followed, film, follow};
 use tree::DrivenTree;
 
-/// Pictures of the film, and the time between two, s.
+/// Number of pictures of the film, and time between two of them, in s.
 const FRAMES: usize = 160;
 const INTERVAL: f64 = 0.05;
 
-/// Follows all starts, or those of a shard, or reads those of all shards; then says what
-/// they say together.
+/// Integrates all starts, or those of a shard, or reads the results of all shards; then writes the
+/// combined results.
 ///
 /// # Errors
 /// [`Failure`].
@@ -46,7 +52,7 @@ pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
         return compare::run(&arguments.compare, job);
     }
     let subject = arguments.read()?;
-    subject.record(job);
+    subject.record(job)?;
     if let Some(duration) = arguments.onset {
         let release = onset::Release {
             duration,
@@ -68,7 +74,7 @@ pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Writes what all starts say together.
+/// Writes the combined results of all starts.
 fn write(
     arguments: &Arguments,
     driven: &DrivenTree,
@@ -91,8 +97,8 @@ fn write(
     job.write("report.md", text.as_bytes())?;
     // A tree that hangs still has nothing to show.
     if findings.course.iter().flatten().any(|energy| *energy > 0.0) {
-        job.chart_over_time("course", &charts::course(arguments, &findings))?;
-        if let Some(chart) = charts::scales(driven, &findings, equilibrium) {
+        job.chart_over_time("course", &charts::energy_history(arguments, &findings))?;
+        if let Some(chart) = charts::scales(arguments, driven, &findings, equilibrium) {
             job.chart("scales", &chart)?;
         }
         job.chart("densities", &charts::densities(&findings))?;

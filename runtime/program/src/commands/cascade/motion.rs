@@ -1,39 +1,37 @@
-//! The motion of all starts, window by window.
+//! Integration of the motion of all starts, window by window.
 
 use std::iter;
 use std::num::NonZeroUsize;
 
-use branched_pendulum::ScaleBudget;
-use branched_pendulum::ensemble::Samples;
 use branched_pendulum::prelude::*;
-use branched_pendulum::system::{UnderTorques, Workspace};
-use branched_pendulum_trees::PendulumTree;
+use branched_pendulum::system::UnderTorques;
 use serde::{Deserialize, Serialize};
 
 use super::arguments::Arguments;
+use super::budgets::{QUANTITIES, StateBudgets, WindowSums};
 use super::density::Density;
-use super::motor::{Motor, Random};
+use super::motor::{Kicks, Motor, Random};
+use super::structure::AmplitudeSums;
 use super::tree::DrivenTree;
 use crate::Failure;
 use crate::frame::{Checkpoint, Job};
 
-/// Quantities of each scale whose means over a window are kept.
-pub const QUANTITIES: usize = 4;
-
 /// One start, followed so far.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Followed {
-    /// Angles and velocities at the end.
+    /// Angles and velocities at the end of the last window.
     pub state: Vec<f64>,
-    /// Means over the windows, one after the other: for each scale energy (J), power
-    /// received from the others, of the friction and of the motor (W).
+    /// Means over the windows, one after the other. For each scale: energy (J), power received from
+    /// other scales, power of friction, power of the motor (W).
     pub windows: Vec<f64>,
-    /// For each scale but the first, how often what passes into it and all younger ones
-    /// has which value, in the second half of the time.
+    /// Histograms over the second half of the time, one for each scale but the first: values of the
+    /// power that passes into this scale and all younger ones.
     pub densities: Vec<Density>,
+    /// Moments of the amplitude of each scale, in the second half of the time.
+    pub amplitudes: Vec<AmplitudeSums>,
 }
 
-/// Some of the starts, at the end of a window.
+/// States reached from some of the starts at the end of a time window, as a checkpoint stores them.
 #[derive(Debug, Serialize, Deserialize)]
 struct Reached {
     /// Their numbers.
@@ -43,11 +41,11 @@ struct Reached {
     starts: Vec<Followed>,
 }
 
-/// Starts that one thread moves at a time: some registers full.
+/// Number of starts that one thread integrates at a time: they fill several registers.
 pub(super) const TOGETHER: usize = 16;
 
-/// Follows the starts `items`, each from its own random numbers, from the checkpoint of
-/// `job` if there is one.
+/// Integrates the starts `items`, each with its own random numbers; continues from the checkpoint
+/// of `job` if there is one.
 ///
 /// # Errors
 /// [`Failure`].
@@ -86,8 +84,13 @@ pub fn follow(
             counts: 2 * reached.windows >= windows,
         };
         let groups = reached.starts.chunks(TOGETHER);
-        let groups: Vec<_> = groups.zip(motors.chunks(TOGETHER)).collect();
-        let moved = ensemble.map(&groups, |_, (starts, motors)| motion.follow(starts, motors));
+        let groups = groups
+            .zip(motors.chunks(TOGETHER))
+            .zip(items.chunks(TOGETHER));
+        let groups: Vec<_> = groups.collect();
+        let moved = ensemble.map(&groups, |_, ((starts, motors), items)| {
+            motion.follow(starts, motors, items)
+        });
         let moved = moved.into_iter().flatten().zip(items);
         for (start, (moved, &item)) in reached.starts.iter_mut().zip(moved) {
             let (state, window) = moved.map_err(|error| diverged(item, &error))?;
@@ -96,10 +99,13 @@ pub fn follow(
             for (all, own) in start.densities.iter_mut().zip(&window.densities) {
                 all.add(own);
             }
+            for (all, own) in start.amplitudes.iter_mut().zip(&window.amplitudes) {
+                all.add(own);
+            }
         }
         reached.windows += 1;
         progress.within(0, reached.windows as f64 / windows as f64);
-        progress.tell(&format!(
+        progress.show_message(&format!(
             "{:.4} J",
             energy(&reached.starts, driven.generations())
         ));
@@ -114,78 +120,100 @@ struct WindowMotion<'a> {
     driven: &'a DrivenTree,
     /// Number of the window.
     window: usize,
-    /// True if values of the fluxes are counted.
+    /// True if values of the fluxes are counted in histograms.
     counts: bool,
 }
 
-/// A state at the end of a window, and the sums over it.
-type Moved = (Vec<f64>, WindowSums);
+/// A state at the end of a window, and the sums over the window.
+type EndAndSums = (Vec<f64>, WindowSums);
 
 impl WindowMotion<'_> {
-    /// Moves starts through the window, in lanes: their states at its end, and sums over it.
+    /// Integrates starts through the window, in lanes. Returns their states at the end and the sums
+    /// over the window. With noise, the integration starts again after each kick.
     fn follow(
         &self,
         starts: &[Followed],
         motors: &[Motor],
-    ) -> Vec<Result<Moved, IntegrationError<f64>>> {
-        let Arguments { steps, samples, .. } = *self.arguments;
+        items: &[usize],
+    ) -> Vec<Result<EndAndSums, IntegrationError<f64>>> {
+        let Arguments {
+            steps,
+            samples,
+            noise,
+            seed,
+            ..
+        } = *self.arguments;
         let first = u64::from(steps) * self.window as u64;
-        let time = self.arguments.time(first);
-        let releases: Vec<_> = starts
+        let stride = steps / samples;
+        let times = self.arguments.times(first, stride, samples);
+        let sums = WindowSums::new(self.driven.generations());
+        let states = starts
             .iter()
-            .zip(motors)
-            .map(|(start, motor)| {
-                let system = UnderTorques::of(&self.driven.subject.tree, motor.clone());
-                (system, State::new(time, start.state.clone()))
-            })
-            .collect();
-        let times = self.arguments.times(first, steps / samples, samples);
+            .map(|start| Ok((start.state.clone(), sums.clone())));
+        let mut moved: Vec<Result<EndAndSums, IntegrationError<f64>>> = states.collect();
+        let mut budgets = StateBudgets::new(self.arguments, self.driven);
+        let Some(noise) = noise else {
+            self.advance(
+                &mut moved,
+                motors,
+                (self.arguments.time(first), &times),
+                &mut budgets,
+            );
+            return moved;
+        };
+        let interval = f64::from(stride) * self.arguments.step();
+        let kicks = items
+            .iter()
+            .map(|&item| Kicks::new(seed, item, self.window));
+        let mut kicks: Vec<Kicks> = kicks.collect();
+        let mut start = self.arguments.time(first);
+        for time in times {
+            self.advance(&mut moved, motors, (start, &[time]), &mut budgets);
+            for (own, kicks) in moved.iter_mut().zip(&mut kicks) {
+                if let Ok((state, _)) = own {
+                    budgets.kick(state, (noise * interval).sqrt() * kicks.draw());
+                }
+            }
+            start = time;
+        }
+        moved
+    }
+
+    /// Moves all starts that have not diverged from a time through others, and adds the budgets
+    /// there.
+    fn advance(
+        &self,
+        moved: &mut [Result<EndAndSums, IntegrationError<f64>>],
+        motors: &[Motor],
+        (start, times): (f64, &[f64]),
+        budgets: &mut StateBudgets<'_>,
+    ) {
+        let running = moved.iter().zip(motors);
+        let releases = running.filter_map(|(own, motor)| {
+            let (state, _) = own.as_ref().ok()?;
+            let system = UnderTorques::of(&self.driven.subject.tree, motor.clone());
+            Some((system, State::new(start, state.clone())))
+        });
+        let releases: Vec<_> = releases.collect();
         let method = Rk4::new(self.arguments.step());
         let alone = Ensemble::new().threads(NonZeroUsize::MIN);
-        let moved = alone.sample_models_in_lanes(&method, &releases, &times);
-        let mut budgets = StateBudgets::new(self);
-        let sum = |(samples, motor): (Samples<f64>, &Motor)| {
-            let mut sums = WindowSums::new(self.driven.generations());
+        let ends = alone.sample_models_in_lanes(&method, &releases, times);
+        let running = moved.iter_mut().zip(motors).filter(|(own, _)| own.is_ok());
+        for ((own, motor), samples) in running.zip(ends) {
+            let Ok((state, sums)) = own else { continue };
             for (&time, state) in times.iter().zip(samples.states()) {
                 sums.add(budgets.at(time, state, motor), self.counts);
             }
-            Ok((samples.end?.state.values, sums))
-        };
-        moved.into_iter().zip(motors).map(sum).collect()
-    }
-}
-
-/// Budgets of states of a tree, in memory that is kept.
-struct StateBudgets<'a> {
-    tree: &'a PendulumTree,
-    workspace: Workspace<f64>,
-    torques: Vec<f64>,
-    budget: ScaleBudget<f64>,
-}
-
-impl<'a> StateBudgets<'a> {
-    fn new(motion: &WindowMotion<'a>) -> Self {
-        Self {
-            tree: &motion.driven.subject.tree,
-            workspace: Workspace::new(),
-            torques: vec![0.0; motion.driven.links()],
-            budget: ScaleBudget::new(),
+            match samples.end {
+                Ok(end) => *state = end.state.values,
+                Err(error) => *own = Err(error),
+            }
         }
-    }
-
-    /// The budget of a state under its motor.
-    fn at(&mut self, time: f64, state: &[f64], motor: &Motor) -> &ScaleBudget<f64> {
-        let (theta, omega) = state.split_at(self.tree.links());
-        self.torques[0] = motor.torque(time);
-        let given = [theta, omega, &self.torques];
-        self.tree
-            .budget_by_scale_into(&mut self.workspace, time, given, &mut self.budget);
-        &self.budget
     }
 }
 
 impl Followed {
-    /// The start of the number `item`, at random about `middle`, and its motor.
+    /// Creates start number `item`, at a random state near `middle`, and its motor.
     fn new(
         arguments: &Arguments,
         driven: &DrivenTree,
@@ -204,12 +232,13 @@ impl Followed {
             state,
             windows: Vec::new(),
             densities: vec![Density::default(); driven.generations() - 1],
+            amplitudes: vec![AmplitudeSums::default(); driven.generations()],
         };
         (start, motor)
     }
 }
 
-/// Mean energy of the trees in the last window, J.
+/// Returns the mean energy of the trees in the last window, in J.
 fn energy(starts: &[Followed], scales: usize) -> f64 {
     let row = QUANTITIES * scales;
     let last = starts
@@ -219,50 +248,8 @@ fn energy(starts: &[Followed], scales: usize) -> f64 {
     energies.sum::<f64>() / starts.len().max(1) as f64
 }
 
-/// Sums over one window of one start.
-#[derive(Clone)]
-struct WindowSums {
-    sums: Vec<[f64; QUANTITIES]>,
-    samples: f64,
-    densities: Vec<Density>,
-}
-
-impl WindowSums {
-    fn new(scales: usize) -> Self {
-        Self {
-            sums: vec![[0.0; QUANTITIES]; scales],
-            samples: 0.0,
-            densities: vec![Density::default(); scales - 1],
-        }
-    }
-
-    fn add(&mut self, budget: &ScaleBudget<f64>, counts: bool) {
-        self.samples += 1.0;
-        for (scale, sums) in self.sums.iter_mut().enumerate() {
-            let values = [
-                budget.energy(scale),
-                budget.received(scale),
-                budget.friction_power(scale) + budget.drag_power(scale),
-                budget.drive_power(scale) + budget.outside_power(scale),
-            ];
-            for (sum, value) in sums.iter_mut().zip(values) {
-                *sum += value;
-            }
-        }
-        if counts {
-            for (scale, density) in (1..).zip(&mut self.densities) {
-                density.count(budget.flux(scale));
-            }
-        }
-    }
-
-    fn means(&self) -> impl Iterator<Item = f64> {
-        self.sums.iter().flatten().map(|sum| sum / self.samples)
-    }
-}
-
-/// The motion of the first start from where it was left, `frames` states that follow each other by about
-/// `interval` seconds, and by how many they do.
+/// Continues the motion of the first start for a film. Returns `frames` states that are about
+/// `interval` seconds apart, and the exact interval.
 ///
 /// # Errors
 /// [`Failure`].

@@ -4,6 +4,7 @@ use std::f64::consts::TAU;
 
 use branched_pendulum::prelude::*;
 use branched_pendulum::system::{LaneTorques, Torques};
+use rand_distr::{Distribution, StandardNormal};
 use rand_xoshiro::Xoshiro256PlusPlus;
 use rand_xoshiro::rand_core::{Rng, SeedableRng};
 
@@ -12,16 +13,16 @@ use super::arguments::Arguments;
 /// Lines of a random torque.
 const LINES: usize = 16;
 
-/// A torque on the root as a sum of cosines.
+/// Torque on the root, as a sum of cosines.
 #[derive(Clone, Debug)]
 pub struct Motor<T = f64> {
-    /// Amplitude (N m), angular frequency (rad/s) and phase (rad) of each.
+    /// Amplitude (N m), angular frequency (rad/s) and phase (rad) of each cosine.
     lines: Vec<[T; 3]>,
 }
 
 impl Motor {
-    /// The torque on the tree of a start: one line, or a random one with a flat spectrum
-    /// and the same mean square, of the amplitude `torque` (N m).
+    /// Creates the torque for one start: a single cosine of amplitude `torque` (N m), or a random
+    /// torque with a flat spectrum and the same mean square.
     pub fn new(arguments: &Arguments, torque: f64, random: &mut Random) -> Self {
         let Arguments {
             frequency,
@@ -45,7 +46,7 @@ impl Motor {
 }
 
 impl<T: Scalar> Motor<T> {
-    /// The torque at a time, N m.
+    /// Returns the torque at a time (s), in N m.
     #[inline(always)]
     pub fn torque(&self, time: T) -> T {
         let mut sum = T::from_f64(0.0);
@@ -78,18 +79,39 @@ impl<T: Scalar> LaneTorques<T> for Motor<T> {
     }
 }
 
-/// Random numbers of one start, whichever process computes it.
+/// Normal random numbers for the kicks of one start in one window; they do not depend on the process
+/// that computes the start.
+#[derive(Debug)]
+pub struct Kicks(Xoshiro256PlusPlus);
+
+impl Kicks {
+    /// Kicks of the start `index` in the window of this number.
+    pub fn new(seed: u64, index: usize, window: usize) -> Self {
+        let own = seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) ^ ((index as u64) << 32) ^ window as u64;
+        Self(Xoshiro256PlusPlus::seed_from_u64(
+            own ^ 0x6b1c_0000_0000_0000,
+        ))
+    }
+
+    /// Draws the next normal number.
+    pub fn draw(&mut self) -> f64 {
+        StandardNormal.sample(&mut self.0)
+    }
+}
+
+/// Random number generator of one start; its numbers do not depend on the process that computes the
+/// start.
 #[derive(Debug)]
 pub struct Random(Xoshiro256PlusPlus);
 
 impl Random {
-    /// Random numbers of the start `index`.
+    /// Creates the random number generator of the start with this index.
     pub fn of_start(seed: u64, index: usize) -> Self {
         let own = seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) ^ index as u64;
         Self(Xoshiro256PlusPlus::seed_from_u64(own))
     }
 
-    /// A number between `-bound` and `bound`.
+    /// Returns a random number between `-bound` and `bound`.
     pub fn within(&mut self, bound: f64) -> f64 {
         let unit = (self.0.next_u64() >> 11) as f64 / (1_u64 << 53) as f64;
         bound * (2.0 * unit - 1.0)

@@ -4,15 +4,16 @@ use branched_pendulum::analysis::statistics::{Average, Estimate, StatisticsError
 use branched_pendulum_data::Column;
 
 use super::arguments::Arguments;
-use super::equilibrium::{Equilibrium, WAYS};
-use super::findings::{Balance, Findings, ScaleState};
-use super::motion::{Followed, QUANTITIES};
+use super::budgets::QUANTITIES;
+use super::equilibrium::{EQUILIBRIUM_METHODS, Equilibrium};
+use super::findings::{Findings, LEVEL, ScaleState};
+use super::motion::Followed;
 use super::tree::DrivenTree;
 use crate::Failure;
 use crate::frame::Job;
 use crate::subject::Subject;
 
-/// Everything that is printed, as Markdown.
+/// Returns the printed report, as Markdown.
 pub fn report(
     arguments: &Arguments,
     driven: &DrivenTree,
@@ -32,6 +33,7 @@ pub fn report(
     text.push_str(&steadiness(arguments, findings));
     text.push_str(&energies(arguments, driven, findings));
     text.push_str(&balance(arguments, findings));
+    text.push_str(&findings.structure.table(LEVEL));
     text
 }
 
@@ -40,6 +42,10 @@ pub fn drive(arguments: &Arguments, subject: &Subject) -> String {
     let frequency = arguments.frequency;
     if subject.tree.drive(0.0).is_some() {
         return format!("driven as described, periods of {frequency} Hz");
+    }
+    if let Some(noise) = arguments.noise {
+        let kicks = frequency * f64::from(arguments.samples);
+        return format!("white noise of {noise} N² m² s on the root, {kicks} kicks a second");
     }
     let width = match arguments.bandwidth {
         0.0 => String::new(),
@@ -55,7 +61,7 @@ fn steadiness(arguments: &Arguments, findings: &Findings) -> String {
     let mut text = match findings.transient {
         Ok(windows) => format!("The transient ends after {:.1} s", windows as f64 * second),
         Err(error) => {
-            format!("There is no end of the transient ({error}); the second half is shown")
+            format!("The transient does not end ({error}); the second half is shown")
         }
     };
     match &findings.drift {
@@ -104,7 +110,7 @@ fn energies(arguments: &Arguments, driven: &DrivenTree, findings: &Findings) -> 
             }
         }
     }
-    text += &missing.told(arguments);
+    text += &missing.list_reasons(arguments);
     match findings.law {
         Some(law) => {
             text += &format!(
@@ -125,7 +131,7 @@ fn energies(arguments: &Arguments, driven: &DrivenTree, findings: &Findings) -> 
     text
 }
 
-/// The energies of the scales beside those in equilibrium.
+/// Compares the energies of the scales with those in thermal equilibrium, in a table.
 pub fn equilibrium(driven: &DrivenTree, findings: &Findings, own: &Equilibrium) -> String {
     let discord = own.discord();
     let mut text = format!(
@@ -145,9 +151,9 @@ pub fn equilibrium(driven: &DrivenTree, findings: &Findings, own: &Equilibrium) 
                 "{some} starts are left out of the third way: their potential energy alone is more.\n\n"
             ),
         },
-        WAYS[0],
-        WAYS[1],
-        WAYS[2],
+        EQUILIBRIUM_METHODS[0],
+        EQUILIBRIUM_METHODS[1],
+        EQUILIBRIUM_METHODS[2],
     );
     for (scale, state) in findings.scales.iter().enumerate() {
         let ways = own.scales.each_ref().map(|way| match way.get(scale) {
@@ -179,6 +185,7 @@ pub fn name(scale: usize) -> String {
 
 /// Input, fluxes, dissipation.
 fn balance(arguments: &Arguments, findings: &Findings) -> String {
+    let source = arguments.source();
     let mut missing = Missing::default();
     let mut watts = |name: &str, average: &Result<Average, StatisticsError>| match average {
         Ok(average) => milli(average),
@@ -188,21 +195,14 @@ fn balance(arguments: &Arguments, findings: &Findings) -> String {
         }
     };
     let mut text = format!(
-        "Motor: {} mW; friction: {} mW; the one less the other {} mW: {}.\n\n\
+        "Input by the {source}: {} mW; friction: {} mW; difference: {} mW: {}.\n\n\
          | into scale | from W (mW) | dissipated there and below (mW) | difference (mW) | skewness of W | \
          flatness of W |\n\
          |---|---:|---:|---:|---:|---:|\n",
-        watts("the motor", &findings.input),
+        watts("the input", &findings.input),
         watts("friction", &findings.dissipation),
         watts("the balance", &findings.loss),
-        match findings.balance() {
-            Balance::Closed => "balanced".to_owned(),
-            Balance::Lost => "NOT balanced, take more `--steps`".to_owned(),
-            Balance::Undecided => format!(
-                "undecided, since the bar is above a tenth of the motor's power; take {}",
-                longer(arguments)
-            ),
-        },
+        findings.balance().verdict(&longer(arguments)),
     );
     for (index, flux) in findings.fluxes.iter().enumerate() {
         text += &format!("| {} |", index + 1);
@@ -223,15 +223,15 @@ fn balance(arguments: &Arguments, findings: &Findings) -> String {
             }
         }
     }
-    text + missing.told(arguments).as_str()
+    text + missing.list_reasons(arguments).as_str()
 }
 
-/// A run that may be long enough where this one is not.
+/// Suggests a longer run, if this one is too short.
 fn longer(arguments: &Arguments) -> String {
     format!("at least `--duration {}`", 2.0 * arguments.duration)
 }
 
-/// Averages that a run is too short for, by their reasons.
+/// Averages that could not be computed because the run is too short, with the reasons.
 #[derive(Debug, Default)]
 struct Missing(Vec<(String, StatisticsError)>);
 
@@ -240,8 +240,8 @@ impl Missing {
         self.0.push((name, *error));
     }
 
-    /// The reasons, a line each, and what to do.
-    fn told(&self, arguments: &Arguments) -> String {
+    /// Lists the reasons, one per line, and what to do.
+    fn list_reasons(&self, arguments: &Arguments) -> String {
         let mut text = String::new();
         for (name, error) in &self.0 {
             text += &format!("\nNo average of {name}: {error}.");
@@ -253,19 +253,19 @@ impl Missing {
     }
 }
 
-/// A moment of a density with its error.
+/// Formats a moment of a distribution with its error.
 fn moment(own: Option<Estimate>) -> String {
     let text = own.map(|own| format!("{:.2} ± {:.2}", own.value, own.error));
     text.unwrap_or_default().replace('-', "−")
 }
 
-/// A power in mW with its error.
+/// Formats a power in mW with its error.
 fn milli(average: &Average) -> String {
     let text = format!("{:.4} ± {:.4}", 1e3 * average.mean, 1e3 * average.error);
     text.replace('-', "−")
 }
 
-/// Writes the means over all windows of all starts.
+/// Writes a table of the means over each window, for all starts.
 ///
 /// # Errors
 /// [`Failure`].
@@ -301,7 +301,7 @@ pub fn write_windows(
     })
 }
 
-/// Writes what was found for each scale.
+/// Writes a table of the results for each scale.
 ///
 /// # Errors
 /// [`Failure`].
@@ -322,6 +322,7 @@ pub fn write_scales(
         ("flux by dissipation", "W"),
         ("error of flux by dissipation", "W"),
         ("mass", "kg"),
+        ("mass of subtrees", "kg"),
         ("flatness of W", ""),
         ("error of flatness of W", ""),
     ];
@@ -351,7 +352,9 @@ pub fn write_scales(
             let mut row = vec![scale as f64, length.unwrap_or(f64::NAN)];
             row.push(driven.degrees_of_freedom(scale) as f64);
             row.extend([energy, given, lost].concat());
-            row.push(driven.masses.get(scale).copied().unwrap_or(f64::NAN));
+            for masses in [&driven.masses, &driven.subtrees] {
+                row.push(masses.get(scale).copied().unwrap_or(f64::NAN));
+            }
             let flatness = flux.and_then(|flux| flux.as_ref().ok()?.flatness);
             row.extend(flatness.map_or(none, |own| [own.value, own.error]));
             if let Some(equilibrium) = equilibrium {

@@ -1,32 +1,32 @@
-//! Growth of small differences between copies, against the angle of release.
+//! Growth of small differences between copies, as a function of the angle of release.
 
-mod differences;
 mod report;
 mod varied;
 
 use branched_pendulum::analysis::growth::{Checked, Grown};
+use branched_pendulum::analysis::normal_form::{NormalFormOptions, Tongues};
 use branched_pendulum::analysis::variational::Copies;
 use branched_pendulum::prelude::*;
 use branched_pendulum_trees::PendulumTree;
 use clap::Parser;
 
-pub(super) use self::differences::{PairArguments, differences_of, out_of_phase};
 use self::varied::Varied;
+use super::differences::{PairArguments, differences_of, start_apart};
 use crate::Failure;
 use crate::frame::command_line::{number, numbers};
 use crate::frame::{Charts, Job};
 use crate::release::ReleaseArguments;
 use crate::subject::TreeArguments;
 
-/// From which release on do differences between copies grow? The growth factor G(T) is the
-/// largest difference within T over that at the start, for one so small that it stays
-/// small: by its linear equations beside the motion in phase, from rest. Prints the windows
-/// of release angles in which G is large, and writes table and chart.
+/// From which release angle on do differences between copies grow? The growth factor G(T) is the
+/// largest difference within the time T divided by the difference at the start. It is computed for
+/// an infinitesimal difference, by linear equations along the in-phase motion, which starts at
+/// rest. Prints the windows of release angles in which G is large, and writes table and chart.
 ///
-/// A difference of a copy and all that hangs from it has one size, √(Σ δ²) over all links.
+/// The size of a difference is √(Σ δ²) over all links that differ.
 ///
-/// Every value is computed at two tolerances; where they differ by more than 1 % it counts
-/// as not determined. Nothing is said about angles between those of the scan.
+/// Every value is computed at two tolerances; if they differ by more than 1 %, it is marked as not
+/// determined. Nothing is said about angles between those of the scan.
 #[derive(Clone, Debug, Parser, PartialEq)]
 #[command(name = "branched-pendulum growth", version, verbatim_doc_comment)]
 pub struct Arguments {
@@ -36,7 +36,7 @@ pub struct Arguments {
     release: ReleaseArguments,
     #[command(flatten)]
     pair: PairArguments,
-    /// link whose angle at the start is scanned; the root, unless it is named
+    /// link whose initial angle is scanned; by default the root
     #[arg(long, value_name = "LINK")]
     link: Option<String>,
     /// angles of that link at the start, degrees from 0 to 180; FROM:TO:STEP for a range
@@ -58,7 +58,7 @@ pub struct Arguments {
         value_parser = numbers(0.1..=1000.0, "s")
     )]
     horizons: ::std::vec::Vec<f64>,
-    /// growth factors whose windows are listed, 1.1 to 1e12
+    /// growth factors for which windows of angles are listed, 1.1 to 1e12
     #[arg(
         long,
         value_name = "G[,G]...",
@@ -66,11 +66,11 @@ pub struct Arguments {
         value_parser = numbers(1.1..=1e12, "")
     )]
     levels: ::std::vec::Vec<f64>,
-    /// repeats the scan with each of these values of a parameter, such as one of friction
+    /// repeats the scan for each of these values of a parameter, such as a coefficient of friction
     #[arg(long, value_name = "NAME=VALUE[,VALUE]...", value_parser = Varied::values)]
     vary: Option<Varied>,
-    /// repeats the scan without the viscous friction that a parameter is, and with the values of
-    /// it at which a small difference at rest has these quality factors
+    /// repeats the scan with several values of a parameter that is a viscous friction coefficient:
+    /// zero, and the values for which a small difference at rest has these quality factors
     #[arg(
         verbatim_doc_comment,
         long,
@@ -79,11 +79,14 @@ pub struct Arguments {
         conflicts_with = "vary"
     )]
     quality: Option<Varied>,
-    /// angles at which all scans are compared, and which the chart marks, degrees from 0 to 180
+    /// also predicts the windows of growth by the normal form of degree 8, and draws their edges
+    #[arg(long)]
+    theory: bool,
+    /// angles at which all scans are compared, and which the chart marks, in degrees from 0 to 180
     #[arg(long, value_name = "DEG[,DEG]...", value_parser = numbers(0.0..=180.0, "degrees"))]
     mark: Option<::std::vec::Vec<f64>>,
-    /// relative error of one integration step, 1e-12 to 1e-3; all is repeated with a
-    /// hundredth of it, whose values are reported
+    /// relative error of one integration step, 1e-12 to 1e-3; everything is repeated with a
+    /// hundredth of it, and the values of the repetition are reported
     #[arg(verbatim_doc_comment, long, value_name = "TOL", default_value = "1e-9", value_parser = number(1e-12..=1e-3, ""))]
     tolerance: f64,
 }
@@ -93,21 +96,25 @@ impl crate::frame::Arguments for Arguments {
     const CHARTS: Charts = Charts::Any;
 }
 
-/// Angles that are computed at a time.
+/// Number of angles that are computed at a time.
 const BLOCK: usize = 128;
 
 /// One scan over the angles.
 struct Scan {
     label: String,
-    /// Frequency of a small difference at rest, Hz.
+    /// Frequency of a small difference about equilibrium, in Hz.
     frequency_hz: f64,
     grown: Vec<Grown>,
-    /// Growth at the angles that are marked.
+    /// Growth at the marked angles.
     marked: Vec<Grown>,
+    /// Rate at which friction damps a small difference about equilibrium, in 1/s.
+    decay: f64,
+    /// Predicted windows of growth, if `--theory` is given.
+    predicted: Option<Tongues>,
 }
 
 impl Scan {
-    /// Computes the growth at every angle, and reports to `progress` which part is done.
+    /// Computes the growth at every angle, and reports the completed fraction to `progress`.
     fn new(
         arguments: &Arguments,
         label: String,
@@ -124,28 +131,40 @@ impl Scan {
         let mut grown = Vec::new();
         for block in starts.chunks(BLOCK) {
             let block = differences.in_lanes(&Ensemble::new(), block);
-            for one in block.map_err(|_| out_of_phase())? {
+            for one in block.map_err(|_| start_apart())? {
                 grown.push(one?);
             }
             progress(grown.len() as f64 / starts.len() as f64);
         }
         let marked = grown.split_off(arguments.angles_deg.len());
+        let decay = differences.decay();
+        let predicted = match arguments.theory {
+            false => None,
+            true => {
+                let form = tree.normal_form(copies, NormalFormOptions::default());
+                let form = form.map_err(|source| Failure::tree(&label, source))?;
+                let predict = |degrees: f64| form.predict(&start(degrees));
+                Some(Tongues::along(&arguments.angles_deg, decay, predict))
+            }
+        };
         Ok(Self {
             label,
             frequency_hz: differences.growth().frequency_hz,
             grown,
             marked,
+            decay,
+            predicted,
         })
     }
 }
 
-/// Computes the scans and writes them; Ctrl-C leaves those that are done.
+/// Computes the scans and writes them; after Ctrl-C, the completed scans are written.
 ///
 /// # Errors
 /// [`Failure`].
 pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
     let subject = arguments.tree.read()?;
-    subject.record(job);
+    subject.record(job)?;
     let copies = arguments.pair.copies(&subject)?;
     let start = arguments.release.state(&subject)?;
     let scanned = match &arguments.link {

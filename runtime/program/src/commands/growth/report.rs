@@ -1,27 +1,32 @@
-//! Windows of growth in words, as a table and as a chart.
+//! Windows of growth as text, as a table and as a chart.
 
 use std::fmt::Write;
 
-use branched_pendulum_charts::{Axis, Chart, Dash, Panel, Series, verbatim};
+use branched_pendulum::analysis::growth::Grown;
+use branched_pendulum_charts::{Axis, Chart, Color, Dash, Panel, Series, Symbol, verbatim};
 use branched_pendulum_data::{Cell, Column};
 
 use super::{Arguments, Scan};
 use crate::Failure;
+use crate::commands::predicted::write_tongues;
 use crate::frame::Job;
 use crate::frame::windows::{windows, words};
 
-/// Most windows that a line lists; the table has all of them.
+/// Largest number of windows that a line of text lists; the table has all of them.
 const MOST_WINDOWS: usize = 12;
 
-/// Growth factors that the chart shows. Lines lead out of it where there is more.
+/// Range of growth factors that the chart shows; larger values are marked at its upper edge.
 const SHOWN: [f64; 2] = [0.8, 1e6];
 
-/// What is said of all scans.
+/// Colour of the marks at values that are not determined.
+const GREY: Color = Color::rgb(110, 110, 110);
+
+/// Sentences about all scans.
 pub(super) struct GrowthReport<'a> {
     pub(super) arguments: &'a Arguments,
     /// Name of the tree.
     pub(super) name: &'a str,
-    /// Name of the link whose angle is scanned.
+    /// Name of the link whose initial angle is scanned.
     pub(super) link: &'a str,
     pub(super) scans: &'a [Scan],
 }
@@ -70,10 +75,17 @@ impl GrowthReport<'_> {
                 );
             }
         }
+        if let Some(predicted) = &scan.predicted {
+            text.push_str("  growth without end, by theory:\n");
+            write_tongues(&mut text, predicted, scan.decay, &|angle| {
+                format!("{angle}°")
+            });
+        }
         text
     }
 
-    /// The growth at the angles that are marked, and which scans have a level between two of them.
+    /// Lists the growth at the marked angles, and the scans in which a growth level lies between
+    /// two of these angles.
     fn marked(&self) -> String {
         let Some(marks) = &self.arguments.mark else {
             return String::new();
@@ -178,12 +190,39 @@ impl GrowthReport<'_> {
             .fold(chart, |chart, (number, horizon)| {
                 let axis = Axis::log(format!("G({horizon} s)")).range(SHOWN[0], SHOWN[1]);
                 let panel = self.scans.iter().fold(Panel::new(axis), |panel, scan| {
-                    let factors = scan.grown.iter();
-                    let factors = factors.map(|grown| grown.factors[number].value.min(1e99));
-                    let factors: Vec<f64> = factors.collect();
+                    let factors = scan.grown.iter().map(|grown| &grown.factors[number]);
+                    let values: Vec<f64> = factors.clone().map(|own| own.value.min(1e99)).collect();
                     let label = verbatim(&scan.label);
-                    panel.series(Series::line(label, angles_deg, &factors).dash(Dash::Solid))
+                    let line = Series::line(label, angles_deg, &values).dash(Dash::Solid);
+                    let panel = panel.series(line.mark_beyond());
+                    let open = angles_deg.iter().zip(factors).zip(&values);
+                    let open = open.filter(|((_, own), value)| {
+                        !own.is_determined() && (SHOWN[0]..=SHOWN[1]).contains(*value)
+                    });
+                    let (angles, values): (Vec<f64>, Vec<f64>) =
+                        open.map(|((angle, _), value)| (*angle, *value)).unzip();
+                    match angles.is_empty() {
+                        true => panel,
+                        false => panel.series(
+                            Series::points("not determined", &angles, &values)
+                                .color(GREY)
+                                .symbol(Symbol::Cross),
+                        ),
+                    }
                 });
+                let is_above = |grown: &Grown| grown.factors[number].value > SHOWN[1];
+                let panel = match self
+                    .scans
+                    .iter()
+                    .any(|scan| scan.grown.iter().any(is_above))
+                {
+                    true => panel.name("on the upper edge: above 10^{6}"),
+                    false => panel,
+                };
+                let predicted = self.scans.iter().filter_map(|scan| scan.predicted.as_ref());
+                let tongues = predicted.flat_map(|own| &own.tongues);
+                let edges = tongues.flat_map(|tongue| tongue.edges);
+                let panel = edges.fold(panel, |panel, edge| panel.vertical(edge.value, ""));
                 let marks = mark.iter().flatten();
                 chart.panel(marks.fold(panel, |panel, angle| {
                     let label = match number {

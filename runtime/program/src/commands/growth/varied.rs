@@ -1,17 +1,17 @@
-//! Trees that are scanned one after the other.
+//! Trees that are scanned one after the other, with varied parameters.
 
 use std::f64::consts::TAU;
 
 use branched_pendulum::analysis::variational::Copies;
 use branched_pendulum_trees::PendulumTree;
 
-use super::differences_of;
 use crate::Failure;
+use crate::commands::differences::differences_of;
 use crate::frame::command_line::parts;
 use crate::subject::Subject;
 
-/// A parameter with the values that it takes one after the other, or with the quality factors
-/// that it gives.
+/// A parameter with the values that it takes one after the other, or with the quality factors that
+/// determine these values.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Varied {
     name: String,
@@ -24,10 +24,11 @@ enum By {
     QualityFactors(Vec<f64>),
 }
 
-/// Value of a friction at which the decay is looked at, SI units; the decay is proportional.
+/// Value of a friction parameter (SI units) at which the decay rate is computed; the decay is
+/// proportional to it.
 const TRIAL: f64 = 1e-3;
 
-/// Largest part by which the decay of a viscous friction may differ from proportional.
+/// Largest relative deviation of the decay rate from proportionality to a viscous friction.
 const PROPORTIONAL: f64 = 1e-9;
 
 impl Varied {
@@ -50,11 +51,11 @@ impl Varied {
         }
     }
 
-    /// Returns the trees that are scanned, with their labels.
+    /// Returns the trees to scan, with their labels.
     ///
     /// # Errors
-    /// [`Failure::Tree`]; [`Failure::Lacking`] for a parameter that is no viscous friction of the
-    /// difference between the copies.
+    /// [`Failure::Tree`]; [`Failure::Lacking`] if the parameter is not a viscous friction that acts
+    /// on the difference between the copies.
     pub(super) fn trees(
         &self,
         subject: &Subject,
@@ -84,7 +85,7 @@ impl Varied {
 fn read(text: &str) -> Result<(String, Vec<f64>), String> {
     let (name, values) = text
         .split_once('=')
-        .ok_or_else(|| format!("`{text}` is no `NAME=NUMBER,NUMBER`"))?;
+        .ok_or_else(|| format!("`{text}` is not `NAME=NUMBER,NUMBER`"))?;
     let value = |part: &str| {
         let value = part.parse::<f64>().ok().filter(|value| value.is_finite());
         value.ok_or_else(|| format!("`{part}` is not a number"))
@@ -93,13 +94,13 @@ fn read(text: &str) -> Result<(String, Vec<f64>), String> {
     Ok((name.trim().to_owned(), values?))
 }
 
-/// How a viscous friction brakes a small difference at rest.
+/// Effect of a viscous friction on a small difference about equilibrium.
 struct Braking {
     /// Angular frequency of the difference, rad/s.
     frequency: f64,
-    /// Decay of its rate by all other friction, 1/s.
+    /// Decay rate of the difference's velocity caused by all other friction, in 1/s.
     others: f64,
-    /// The same by this friction, over the parameter.
+    /// Increase of the decay rate with this friction, per unit of the parameter.
     slope: f64,
 }
 
@@ -116,8 +117,8 @@ impl Braking {
         if !(slope > 0.0 && is_proportional.abs() < PROPORTIONAL) {
             return Err(Failure::Lacking {
                 what: format!(
-                    "`--quality`: `{name}` is no friction that brakes a small difference between \
-                     the copies"
+                    "`--quality`: `{name}` is not a friction coefficient that damps a small \
+                     difference between the copies"
                 ),
             });
         }
@@ -128,15 +129,15 @@ impl Braking {
         })
     }
 
-    /// Returns the value of the parameter at a quality factor.
+    /// Returns the value of the parameter at which the difference has a given quality factor.
     fn value(&self, name: &str, factor: f64) -> Result<f64, Failure> {
         let value = (self.frequency / factor - self.others) / self.slope;
         match value >= 0.0 {
             true => Ok(value),
             false => Err(Failure::Lacking {
                 what: format!(
-                    "`--quality`: other friction than `{name}` already gives the quality factor \
-                     {:.4}, below {factor}",
+                    "`--quality`: without the friction `{name}`, the quality factor is already \
+                     {:.4}, which is below {factor}",
                     self.frequency / self.others
                 ),
             }),

@@ -11,11 +11,11 @@ use crate::motion::MethodArguments;
 use crate::release::{APART, ReleaseArguments};
 use crate::subject::TreeArguments;
 
-/// Masses, lengths, inertias and friction of a pendulum from its measured motion, or from measured
-/// frequencies of small motions: the parameters that its description names. Prints how well viscous friction, Coulomb friction and quadratic
-/// drag explain it, what the angles determine and what they leave open, and how well the motion
-/// goes on that was not fitted. Without a file the tree is simulated, with parameters that are
-/// known.
+/// Finds masses, lengths, inertias and friction of a pendulum (the parameters that its description
+/// names) from its measured motion, or from measured frequencies of small motions. Prints how well
+/// viscous friction, Coulomb friction and quadratic drag explain the motion, which parameters the
+/// angles determine and which they leave open, and how well the part of the motion that was not
+/// fitted is predicted. Without a file, measurements are simulated with known parameters.
 #[derive(Clone, Debug, Parser, PartialEq)]
 #[command(
     name = "branched-pendulum identify",
@@ -28,7 +28,7 @@ pub struct Arguments {
     /// The file.
     #[command(flatten)]
     pub measured: MeasuredFile,
-    /// The tree that was measured, with what is known of it.
+    /// The measured tree, with the known values of its parameters.
     #[command(flatten)]
     pub tree: TreeArguments,
     /// parameters that are looked for, in SI units, each from within some 30 % of its GUESS, or of
@@ -45,31 +45,32 @@ pub struct Arguments {
     #[arg(long, value_name = "HZ:ERROR[@MODE][,..]", value_parser = frequencies)]
     // By its full path, clap takes each for one value.
     pub frequency: Vec<::std::vec::Vec<Frequency>>,
-    /// length of the part that is fitted, s from 1 to 1e4; what follows is predicted. Three
-    /// quarters of the record without it
+    /// length of the part of the record that is fitted, in s from 1 to 1e4; the rest is predicted.
+    /// Three quarters of the record by default
     #[arg(long, value_name = "S", value_parser = number(1.0..=1e4, "s"))]
     pub fit: Option<f64>,
-    /// laws of friction, one after the other: viscous, coulomb (and viscous), all (and quadratic)
+    /// friction laws to fit, one after the other: viscous, coulomb (and viscous), all (and
+    /// quadratic)
     #[arg(long, value_name = "LAW,...", value_parser = laws, default_value = "viscous,coulomb,all")]
     // By its full path, clap takes it for one value.
     pub laws: ::std::vec::Vec<Law>,
-    /// coefficients of friction: of either sign, which tells a law that is not the real one, or no
-    /// less than 0
+    /// sign of friction coefficients: either sign, where a negative result shows that the law is
+    /// wrong, or not negative
     #[arg(long, value_enum, value_name = "SIGN", default_value = "either")]
     pub friction: Sign,
     /// How a simulated tree starts.
     #[command(flatten)]
     pub release: ReleaseArguments,
-    /// How a simulated motion is integrated.
+    /// How the motion is integrated if it is simulated.
     #[command(flatten)]
     pub method: MethodArguments,
-    /// simulated: error of an angle, rad from 1e-6 to 0.1
+    /// simulation: standard deviation of an angle's error, rad from 1e-6 to 0.1
     #[arg(long, value_name = "RAD", default_value = "1e-3", value_parser = number(1e-6..=0.1, "rad"))]
     pub noise: f64,
-    /// simulated: length of the record, s from 5 to 1000
+    /// simulation: length of the record, s from 5 to 1000
     #[arg(long, value_name = "S", default_value = "40", value_parser = number(5.0..=1e3, "s"))]
     pub duration: f64,
-    /// simulated: pictures in a second, 1 to 1e4
+    /// simulation: pictures per second, 1 to 1e4
     #[arg(long, value_name = "HZ", default_value = "100", value_parser = number(1.0..=1e4, "Hz"))]
     pub rate: f64,
     /// seed of all random numbers
@@ -77,18 +78,18 @@ pub struct Arguments {
     pub seed: u64,
 }
 
-/// Laws of friction, each with those before it.
+/// Friction laws; each includes the ones before it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, ValueEnum)]
 pub enum Law {
-    /// Proportional to the rate, in every pivot.
+    /// Viscous friction, proportional to the angular velocity, in every pivot.
     Viscous,
     /// And Coulomb's, in every pivot.
     Coulomb,
-    /// And quadratic drag of every link against the air.
+    /// Quadratic drag of every link against the air, in addition.
     All,
 }
 
-/// Signs that coefficients of friction may have.
+/// Signs that friction coefficients may have.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Sign {
     /// Either one.
@@ -98,7 +99,7 @@ pub enum Sign {
 }
 
 impl Law {
-    /// Name of the law in tables.
+    /// Returns the name of the law in tables.
     pub fn name(self) -> &'static str {
         match self {
             Self::Viscous => "viscous",
@@ -155,8 +156,8 @@ fn laws(text: &str) -> Result<Vec<Law>, String> {
 fn frequencies(text: &str) -> Result<Vec<Frequency>, String> {
     let wrong = |part: &str| {
         format!(
-            "`{part}` is no frequency with its standard error, both in Hz and positive: write \
-             `0.88:0.005`, or `0.88:0.005@1` for that of mode 1, the slowest"
+            "`{part}` is not a frequency with its standard error, both in Hz and positive: write \
+             `0.88:0.005`, or `0.88:0.005@1` for mode 1, the slowest"
         )
     };
     let frequency = |part: &str| {

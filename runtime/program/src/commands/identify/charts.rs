@@ -1,4 +1,4 @@
-//! Errors of the identified model, and the energy, against time.
+//! Charts of the errors of the identified model, and of the energy, against time.
 
 use branched_pendulum_charts::{Axis, Chart, Color, Dash, Panel, Series, verbatim};
 use branched_pendulum_measure::identification::AngleErrors;
@@ -8,8 +8,8 @@ use super::study::{Energies, Outcome};
 
 const BLACK: Color = Color::rgb(0, 0, 0);
 
-/// Draws errors of the law that is reported in windows and of one motion, the latter beside
-/// those of the first law, and the energies.
+/// Draws the errors of the reported law, in windows and over one motion (compared with the first
+/// law), and the energies.
 pub fn chart(
     measurement: &Measurement,
     outcomes: &[Outcome],

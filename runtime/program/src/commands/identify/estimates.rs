@@ -1,4 +1,4 @@
-//! What a fit has found, in words, in tables and as `parameters.json`.
+//! Result of a fit as text, as tables and as `parameters.json`.
 
 use std::fmt::Write;
 
@@ -11,11 +11,11 @@ use crate::Failure;
 use crate::constants::KnownConstants;
 use crate::frame::Job;
 
-/// Share in an open change for which a parameter is worth to be measured.
+/// Share in an undetermined combination from which on it is worth measuring a parameter separately.
 const WORTH: f64 = 0.1;
 
-/// Writes the table of the estimates: what the data determine first, then what goes with values
-/// that are held, beside the true values of a simulated tree.
+/// Writes the table of the estimates: first the values that the data determine, then values that
+/// depend on fixed ones; with the true values if the record is simulated.
 pub fn table(fit: &Fit, truths: Option<&[(String, f64)]>) -> String {
     // Of frequencies alone there is one deviation.
     let has_blocks = !fit.starts.is_empty();
@@ -65,7 +65,7 @@ pub fn table(fit: &Fit, truths: Option<&[(String, f64)]>) -> String {
     lines.join("\n") + "\n"
 }
 
-/// The true value of an unknown or of a ratio.
+/// Returns the true value of an unknown or of a ratio.
 fn truth_of(truths: &[(String, f64)], name: &str) -> Option<f64> {
     let of = |factor: &str| {
         let own = truths.iter().find(|(name, _)| *name == factor);
@@ -77,7 +77,8 @@ fn truth_of(truths: &[(String, f64)], name: &str) -> Option<f64> {
     Some(divided.fold(product, |value, divisor| value / of(divisor)))
 }
 
-/// Tells what the data leave open, with what to measure for it, and values that no pendulum has.
+/// Lists what the data do not determine and what should be measured for it, and negative friction
+/// coefficients.
 pub fn standing(unknowns: &Unknowns, fit: &Fit) -> String {
     let mut text = format!("\n{}\n", fit.identifiability);
     let mut line = |words: String| {
@@ -102,16 +103,15 @@ pub fn standing(unknowns: &Unknowns, fit: &Fit) -> String {
             ));
         }
     }
-    if let Some(error) = &fit.impossible {
-        line(format!(
-            "No pendulum is such: {error}. What is held, or the law of friction, is not that of \
-             the real one; the motion is the same all the same."
-        ));
+    if let Some(error) = &fit.impossible
+        && fit.driving_friction().is_none()
+    {
+        line(format!("Zero within its error bar: {error}."));
     }
     text
 }
 
-/// Writes the table of the frequencies that were measured; nothing where none was.
+/// Writes the table of the measured frequencies; empty if none were measured.
 pub fn frequencies(fit: &Fit) -> String {
     if fit.frequencies.is_empty() {
         return String::new();
@@ -136,7 +136,7 @@ pub fn frequencies(fit: &Fit) -> String {
     text
 }
 
-/// Writes `frequencies.csv`, where frequencies were measured.
+/// Writes `frequencies.csv` if frequencies were measured.
 ///
 /// # Errors
 /// [`Failure::Csv`] or [`Failure::File`].
@@ -158,7 +158,7 @@ pub fn write_frequencies(job: &Job, fit: &Fit) -> Result<(), Failure> {
     })
 }
 
-/// The frequencies that were measured, for the record of the run.
+/// Returns the measured frequencies for the record of the run.
 pub fn recorded_frequencies(fit: &Fit) -> Value {
     let each = fit.frequencies.iter().map(|own| {
         json!({
@@ -171,8 +171,8 @@ pub fn recorded_frequencies(fit: &Fit) -> Value {
     each.collect()
 }
 
-/// Writes the values of all parameters and the offsets of links (rad), as `parameters.json` and
-/// into the record of the run.
+/// Writes the values of all parameters and the offsets of the links' angles (rad) to
+/// `parameters.json` and to the record of the run.
 ///
 /// # Errors
 /// [`Failure::File`].

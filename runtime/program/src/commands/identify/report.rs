@@ -1,15 +1,15 @@
-//! Results in words, as tables and in the record of the run.
+//! Results as text, as tables and in the record of the run.
 
 use std::fmt::Write;
 
 use branched_pendulum_data::Column;
-use branched_pendulum_measure::identification::Standing;
+use branched_pendulum_measure::identification::{SearchOutcome, Standing, best};
 use serde_json::{Value, json};
 
 use super::arguments::Arguments;
 use super::estimates;
 use super::source::Measurement;
-use super::study::{Energies, Found, MeasuredEnergy, Mismatch, Outcome, best};
+use super::study::{Energies, MeasuredEnergy, Mismatch, Outcome};
 use super::unknowns::Unknowns;
 use crate::Failure;
 use crate::frame::Job;
@@ -23,7 +23,8 @@ pub fn report(
     reported: &Outcome,
     energies: Option<&Energies>,
 ) -> String {
-    let mut text = measured(arguments, measurement);
+    let mut text = no_fit(reported);
+    text += &measured(arguments, measurement);
     text += &errors_by_law(measurement, outcomes);
     text.push('\n');
     text += &convergences(outcomes);
@@ -35,7 +36,21 @@ pub fn report(
     text
 }
 
-/// What was measured, and which part of it is fitted.
+/// Explains why there is no fit, or no fit with a physical law of friction; empty if there is one.
+fn no_fit(reported: &Outcome) -> String {
+    match reported.result() {
+        Ok(fit) => match fit.driving_friction() {
+            Some(impossible) => format!(
+                "No fit with friction that brakes: {impossible}. The law of friction is not that of \
+                 the real pendulum; help: --friction nonnegative\n"
+            ),
+            None => String::new(),
+        },
+        Err(unfound) => format!("No fit: {unfound}.\n"),
+    }
+}
+
+/// Describes the measured record, and the part of it that is fitted.
 fn measured(arguments: &Arguments, measurement: &Measurement) -> String {
     let mut text = String::new();
     let mut line = |words: String| {
@@ -60,7 +75,7 @@ fn measured(arguments: &Arguments, measurement: &Measurement) -> String {
     text
 }
 
-/// The errors of the angles, a line for each law of friction.
+/// Lists the errors of the angles, one line per friction law.
 fn errors_by_law(measurement: &Measurement, outcomes: &[Outcome]) -> String {
     let mut text = String::new();
     let mut line = |words: String| {
@@ -92,8 +107,8 @@ fn convergences(outcomes: &[Outcome]) -> String {
     let mut text = String::new();
     for outcome in outcomes {
         for (kind, found) in [
-            ("windows", &outcome.in_windows),
-            ("one motion", &outcome.one_motion),
+            ("windows", &outcome.found.in_windows),
+            ("one motion", &outcome.found.one_motion),
         ] {
             let words = match found {
                 Ok(fit) => fit.convergence.to_string(),
@@ -105,11 +120,13 @@ fn convergences(outcomes: &[Outcome]) -> String {
     text
 }
 
-/// The parameters of the law that is reported, and the frequencies.
+/// Lists the parameters found with the reported law, and the frequencies.
 fn parameters(unknowns: &Unknowns, measurement: &Measurement, reported: &Outcome) -> String {
     let law = reported.law.name();
     let (heading, fit) = match reported.result() {
-        Ok(fit) if reported.one_motion.is_ok() => ("Parameters by one motion".to_owned(), fit),
+        Ok(fit) if reported.found.one_motion.is_ok() => {
+            ("Parameters by one motion".to_owned(), fit)
+        }
         Ok(fit) => {
             let window = reported.window();
             let words =
@@ -117,13 +134,16 @@ fn parameters(unknowns: &Unknowns, measurement: &Measurement, reported: &Outcome
             (words, fit)
         }
         Err(unfound) => {
-            let words = "No parameters were found. The best that was tried";
+            let words = "No fit. The best that was tried";
             (words.to_owned(), &unfound.best)
         }
     };
     let mut text = format!("{heading}, friction {law}, SI units:\n");
     text += &estimates::table(fit, measurement.truth.as_deref());
-    if reported.result().is_ok() {
+    if reported.result().is_ok() && fit.driving_friction().is_some() {
+        text += "They have no deviations, since no real pendulum has these constants.\n";
+        text += &estimates::standing(unknowns, fit);
+    } else if reported.result().is_ok() {
         // Writing to a string cannot fail.
         let _ = writeln!(
             text,
@@ -170,8 +190,8 @@ fn one_motion(measurement: &Measurement, outcome: &Outcome) -> [Option<f64>; 2] 
     .map(|(from, until)| Some(outcome.errors.as_ref()?.rms_between(from, until)))
 }
 
-/// Writes the parameters of the tree where they were found, what is left over of each angle, and
-/// the energies.
+/// Writes the parameters of the tree if they were found, the residuals of all angles, and the
+/// energies.
 ///
 /// # Errors
 /// [`Failure::Csv`] or [`Failure::File`].
@@ -227,7 +247,7 @@ pub fn write(
     })
 }
 
-/// Puts what was found into the record of the run.
+/// Writes the results to the record of the run.
 pub fn record(
     job: &Job,
     measurement: &Measurement,
@@ -238,8 +258,8 @@ pub fn record(
         job.report(
             outcome.law.name(),
             json!({
-                "in_windows": searched(&outcome.in_windows),
-                "by_one_motion": searched(&outcome.one_motion),
+                "in_windows": searched(&outcome.found.in_windows),
+                "by_one_motion": searched(&outcome.found.one_motion),
                 "window": outcome.window(),
                 "windows": outcome.windows.each_ref().map(|errors| errors.rms()),
                 "one_motion": one_motion(measurement, outcome),
@@ -266,8 +286,8 @@ pub fn record(
     }
 }
 
-/// A search in the record of the run.
-pub fn searched(found: &Found) -> Value {
+/// Returns the outcome of a search for the record of the run.
+pub fn searched(found: &SearchOutcome) -> Value {
     let fit = best(found);
     let parameters = fit.estimates.iter().chain(&fit.ratios).map(|estimate| {
         json!({

@@ -1,13 +1,13 @@
-//! Parameters from frequencies of small motions alone.
+//! Identification of parameters from frequencies of small motions only.
 
 use std::fmt::Write;
 
-use branched_pendulum_measure::identification::{Fit, IdentificationError};
+use branched_pendulum_measure::identification::{AngleRecord, Fit, IdentificationError, best};
 
 use super::arguments::{Arguments, Law};
 use super::estimates;
 use super::report::searched;
-use super::study::{best, found, identification};
+use super::study::{WINDOW, identification};
 use super::unknowns::Unknowns;
 use crate::Failure;
 use crate::frame::Job;
@@ -15,11 +15,13 @@ use crate::frame::Job;
 /// Fits the frequencies, prints the report and writes the tables.
 ///
 /// # Errors
-/// [`Failure`]; where nothing was found that is a result, too, after the report.
+/// [`Failure`]; also, after the report, if the fit has no valid result.
 pub fn run(arguments: &Arguments, unknowns: &Unknowns, job: &Job) -> Result<(), Failure> {
-    // No law of friction tells itself from another.
+    // Laws of friction cannot be distinguished.
     let task = identification(arguments, unknowns, Law::All);
-    let outcome = found(task.fit_to_frequencies())?;
+    let observer = |_: &_| std::ops::ControlFlow::Continue(());
+    let found = task.fit_by_windows(&AngleRecord::default(), WINDOW, None, &observer)?;
+    let outcome = found.in_windows;
     let fit = best(&outcome);
     let mut text = estimates::frequencies(fit);
     match &outcome {
@@ -29,7 +31,7 @@ pub fn run(arguments: &Arguments, unknowns: &Unknowns, job: &Job) -> Result<(), 
             // Writing to a string cannot fail.
             let _ = write!(
                 text,
-                "\n{unfound}.\nNo parameters were found. The best that was tried, SI units:\n{table}"
+                "\nNo fit: {unfound}.\nThe best that was tried, SI units:\n{table}"
             );
         }
     }
@@ -40,7 +42,7 @@ pub fn run(arguments: &Arguments, unknowns: &Unknowns, job: &Job) -> Result<(), 
     estimates::write_frequencies(job, &fit)
 }
 
-/// What was found, and what speaks for it.
+/// Describes the result and the evidence for it.
 fn account(unknowns: &Unknowns, fit: &Fit) -> String {
     let mut text = String::new();
     let mut line = |words: String| {

@@ -1,4 +1,4 @@
-//! The angles: out of a file, or simulated.
+//! Angles to identify from: read from a file, or simulated.
 
 use branched_pendulum_data::Finding;
 use branched_pendulum_measure::identification::AngleRecord;
@@ -12,47 +12,49 @@ use crate::Failure;
 use crate::measured_file::{MeasuredFile, MeasuredLinks};
 use crate::motion::sample;
 
-/// Deviation of angles beside each other, rad: all are equally good.
+/// Assumed standard deviation of measured angles relative to neighbouring ones, in rad; it is the
+/// same for all angles.
 const DEVIATION: f64 = 1e-3;
 
-/// Angles link by link (rad); none where they are missing.
+/// Angles (rad) link by link; `None` for missing values.
 pub type Angles = Vec<Vec<Option<f64>>>;
 
 /// Angles of all links against time.
 #[derive(Clone, Debug)]
 pub struct Measurement {
-    /// All of the record.
+    /// The whole record.
     pub record: AngleRecord,
-    /// Angles of the links (rad), from the downward vertical.
+    /// Angles of the links (rad), measured from the downward vertical.
     pub angles: Angles,
     /// Names of the links.
     pub links: Vec<String>,
-    /// What the links show where they are at 0, rad, which is taken from the angles.
+    /// Measured angles (rad) of links whose true angle is 0; they are subtracted.
     pub offsets: Vec<f64>,
-    /// The time until which the links were held, where the file begins before, s; the record
-    /// begins there.
+    /// Time (s) at which the links were released, if the file begins before; the record begins at
+    /// this time.
     pub release: Option<f64>,
-    /// End of the part that is fitted, s.
+    /// End time of the fitted part, in s.
     pub until: f64,
     /// How the file was read.
     pub findings: Vec<Finding>,
-    /// Values of all parameters, of a simulated record.
+    /// True values of all parameters, if the record is simulated.
     pub truth: Option<Vec<(String, f64)>>,
 }
 
 impl Measurement {
-    /// Reads the file of the arguments, or simulates the tree.
+    /// Reads the file given in the arguments, or simulates the tree.
     ///
     /// # Errors
-    /// Errors of [`MeasuredFile::read`]; of a simulation [`Failure::Tree`],
-    /// [`Failure::Start`] or [`Failure::Motion`].
+    /// Errors of [`MeasuredFile::read`]; for a simulation [`Failure::Tree`], [`Failure::Start`] or
+    /// [`Failure::Motion`].
     pub fn new(arguments: &Arguments, unknowns: &Unknowns) -> Result<Self, Failure> {
         let measured = &arguments.measured;
         let links = unknowns.links();
         let (mut offsets, mut release) = (vec![0.0; links.len()], None);
         let (times, angles, findings, truth) = match &measured.file {
             Some(file) => {
-                let read = measured.read(file, &measured_links(unknowns, measured)?)?;
+                let mut read = measured.read(file, &measured_links(unknowns, measured)?)?;
+                read.keep_longest_stretch();
                 let recording = read.recording;
                 let count = recording.times.len();
                 let angles = recording.links.iter();
@@ -101,11 +103,12 @@ impl Measurement {
     }
 }
 
-/// Returns the links of the tree, with its place of rest where the file has a stretch at rest.
+/// Returns the links of the tree, with their equilibrium angles if the file has a part in which
+/// they hang at rest.
 ///
 /// # Errors
-/// Errors of [`MeasuredLinks::new`]; [`Failure::Lacking`] where the place follows from what is
-/// looked for, and offsets from it would be those of the guess.
+/// Errors of [`MeasuredLinks::new`]; [`Failure::Lacking`] if the equilibrium depends on unknown
+/// parameters, because the offsets would then depend on guesses.
 fn measured_links(unknowns: &Unknowns, file: &MeasuredFile) -> Result<MeasuredLinks, Failure> {
     let links = |values: &[f64]| {
         let subject = unknowns.subject_as_given(values)?;
@@ -123,8 +126,9 @@ fn measured_links(unknowns: &Unknowns, file: &MeasuredFile) -> Result<MeasuredLi
         if links(&others)?.rests_elsewhere(&own) {
             return Err(Failure::Lacking {
                 what: format!(
-                    "where the tree rests depends on `{name}`, which is looked for: set it by `--set \
-                     {name}=VALUE`, or give what links show at rest by --tilt in place of --rest",
+                    "the rest position of the tree depends on the unknown parameter `{name}`: \
+                     set it by `--set {name}=VALUE`, or give the measured angles of the \
+                     resting links by --tilt instead of --rest",
                     name = parameter.name
                 ),
             });

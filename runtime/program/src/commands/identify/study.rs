@@ -1,10 +1,10 @@
-//! Fits with several laws of friction, and what they leave over.
+//! Fits with several friction laws, and their residuals.
 
 use branched_pendulum::Energy;
 use branched_pendulum::analysis::variational::linearised;
 use branched_pendulum::prelude::AbsoluteAngles;
 use branched_pendulum_measure::identification::{
-    AngleErrors, Fit, Identification, IdentificationError, SearchFailure, Shooting, Unfound,
+    AngleErrors, Fit, Identification, SearchObserver, Unfound, WindowedFit, best,
 };
 use branched_pendulum_measure::{KinematicSmoother, bands};
 use branched_pendulum_trees::TreeDescription;
@@ -29,43 +29,29 @@ pub struct Study<'a> {
     measurement: &'a Measurement,
 }
 
-/// A fit, or the best of a search that found none.
-pub type Found = Result<Fit, Box<Unfound>>;
-
-/// The fit of a search, whether it is a result or not.
-pub fn best(found: &Found) -> &Fit {
-    match found {
-        Ok(fit) => fit,
-        Err(unfound) => &unfound.best,
-    }
-}
-
-/// Fits with one law of friction, and their errors.
+/// Fits with one friction law, and their errors.
 #[derive(Clone, Debug)]
 pub struct Outcome {
     /// The law.
     pub law: Law,
-    /// The fit of windows.
-    pub in_windows: Found,
-    /// The fit of one motion over the whole part that is fitted; without windows the same.
-    pub one_motion: Found,
-    /// Errors of that motion, followed to the end of the record; none where it was lost.
+    /// Fit of short windows, and fit of one motion over the whole fitted part.
+    pub found: WindowedFit,
+    /// Errors of that motion, continued to the end of the record; `None` if the fit failed.
     pub errors: Option<AngleErrors>,
-    /// Errors in windows of a fit to windows: of the part that was fitted, and of the rest.
+    /// Errors in windows, for a fit to windows: in the fitted part, and in the rest.
     pub windows: [AngleErrors; 2],
 }
 
 impl Outcome {
-    /// Length of the windows, s: shorter than [`WINDOW`] where such lose the motion.
+    /// Returns the length of the windows in s: shorter than [`WINDOW`] if the motion is lost in
+    /// windows of that length.
     pub fn window(&self) -> f64 {
-        let last = best(&self.in_windows).stages.last();
-        last.map_or(WINDOW, |stage| stage.length)
+        self.found.window().unwrap_or(WINDOW)
     }
 
-    /// The result: of one motion, or of windows where that is none.
+    /// Returns the result: the fit of one motion or, if that failed, the fit of windows.
     pub fn result(&self) -> Result<&Fit, &Unfound> {
-        let found = self.one_motion.as_ref().or(self.in_windows.as_ref());
-        found.map_err(|unfound| &**unfound)
+        self.found.result()
     }
 }
 
@@ -74,10 +60,11 @@ impl Outcome {
 pub struct Energies {
     /// Times, s.
     pub times: Vec<f64>,
-    /// Of measured angles and velocities by smoothness.
+    /// Energy from angles and velocities that were smoothed without equations of motion.
     pub by_smoothness: MeasuredEnergy,
-    /// Of measured angles and velocities by the fitted equations of motion, which follow the
-    /// data where they are wrong: process noise of the likeliest size disturbs them.
+    /// Energy from angles and velocities that were smoothed with the fitted equations of motion.
+    /// Process noise of the most likely size lets the result follow the data where the equations
+    /// are wrong.
     pub by_equations: MeasuredEnergy,
     /// Of the fitted motion, J.
     pub fitted: Vec<f64>,
@@ -92,19 +79,19 @@ pub struct MeasuredEnergy {
     pub deviations: Vec<f64>,
 }
 
-/// Differences of two energies, each of that at the start.
+/// Difference between two energies, each relative to its initial value.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Mismatch {
     /// Root mean square.
     pub rms: f64,
     /// Largest, and its time, s.
     pub largest: [f64; 2],
-    /// Standard deviation of the measured one at that time.
+    /// Standard deviation of the measured energy at that time.
     pub deviation: f64,
 }
 
 impl Energies {
-    /// Compares the fitted motion's energy with one of the measured ones.
+    /// Compares the energy of the fitted motion with one of the measured energies.
     pub fn mismatch(&self, measured: &MeasuredEnergy) -> Mismatch {
         let start = self.fitted.first().copied().unwrap_or(f64::NAN);
         let mut squares = 0.0;
@@ -126,7 +113,7 @@ impl Energies {
     }
 }
 
-/// Draws from which deviations of the measured energy follow.
+/// Number of random draws from which standard deviations of the measured energy are computed.
 const DRAWS: usize = 100;
 
 impl<'a> Study<'a> {
@@ -143,52 +130,45 @@ impl<'a> Study<'a> {
         }
     }
 
-    /// Fits with one law, beginning where the fit with a poorer one has ended.
+    /// Fits with one law, starting from the result of the fit with a simpler law. The observer can
+    /// end the search early.
     ///
     /// # Errors
     /// [`Failure::Identification`].
-    pub fn outcome(&self, law: Law, poorer: Option<&Outcome>) -> Result<Outcome, Failure> {
+    pub fn outcome(
+        &self,
+        law: Law,
+        poorer: Option<&Outcome>,
+        observer: SearchObserver<'_>,
+    ) -> Result<Outcome, Failure> {
         let (fitted, later) = (self.measurement.fitted(), self.measurement.later());
         let task = identification(self.arguments, self.unknowns, law);
-        let short = task.clone().with_shooting(Shooting {
-            first: WINDOW,
-            longest: WINDOW,
-            ..Shooting::default()
-        });
-        let in_windows = match poorer {
-            Some(poorer) => found(short.fit_from(best(&poorer.in_windows), &fitted))?,
-            None => found(short.fit(&fitted))?,
+        let poorer = poorer.map(|poorer| &poorer.found);
+        let found = task.fit_by_windows(&fitted, WINDOW, poorer, observer)?;
+        let errors = |fit| task.errors(fit, &self.measurement.record);
+        // Constants that were not found need not be those of a motion.
+        let errors = match &found.one_motion {
+            Ok(_) => found.motion().map(errors).transpose()?,
+            Err(_) => found.motion().and_then(|fit| errors(fit).ok()),
         };
-        // Shorter windows where such lose the motion.
-        let in_windows = match in_windows {
-            Err(unfound) if matches!(unfound.failure, SearchFailure::Lost { .. }) => {
-                found(short.fit_in_segments(&fitted))?
-            }
-            found => found,
+        let window = found.window().unwrap_or(WINDOW);
+        let in_windows = |record| task.window_errors(best(&found.in_windows), record, window);
+        let windows = match &found.in_windows {
+            Ok(_) => [in_windows(&fitted)?, in_windows(&later)?],
+            Err(_) => [&fitted, &later].map(|record| {
+                let none = AngleErrors::missing(record);
+                in_windows(record).unwrap_or(none)
+            }),
         };
-        // One motion goes on from windows.
-        let one_motion = match &in_windows {
-            Ok(windows) => found(task.fit_from(windows, &fitted))?,
-            Err(_) => in_windows.clone(),
-        };
-        let is_one = best(&one_motion).starts.len() == 1;
-        let errors = || task.errors(best(&one_motion), &self.measurement.record);
-        let outcome = Outcome {
-            law,
-            errors: is_one.then(errors).transpose()?,
-            windows: [AngleErrors::default(), AngleErrors::default()],
-            in_windows,
-            one_motion,
-        };
-        let errors =
-            |record| short.window_errors(best(&outcome.in_windows), record, outcome.window());
         Ok(Outcome {
-            windows: [errors(&fitted)?, errors(&later)?],
-            ..outcome
+            law,
+            errors,
+            windows,
+            found,
         })
     }
 
-    /// Energies of the measured and of the fitted motion, with the fitted parameters.
+    /// Returns the energies of the measured motion, and of the motion with the fitted parameters.
     ///
     /// # Errors
     /// [`Failure::Identification`] or [`Failure::Smoothing`].
@@ -251,8 +231,8 @@ impl<'a> Study<'a> {
     }
 }
 
-/// What is looked for with a law of friction, by angles with offsets and by the frequencies of the
-/// arguments.
+/// Creates the identification with a friction law, from angles with offsets and from the
+/// frequencies in the arguments.
 pub fn identification(
     arguments: &Arguments,
     unknowns: &Unknowns,
@@ -276,27 +256,22 @@ pub fn identification(
     })
 }
 
-/// Takes a search that ended nowhere for no mistake of the request.
-///
-/// # Errors
-/// Mistakes of the request.
-pub fn found(result: Result<Fit, IdentificationError>) -> Result<Found, IdentificationError> {
-    match result {
-        Ok(fit) => Ok(Ok(fit)),
-        Err(IdentificationError::NotFound(unfound)) => Ok(Err(unfound)),
-        Err(error) => Err(error),
-    }
-}
-
 #[cfg(test)]
 mod tests {
+    use std::ops::ControlFlow;
     use std::time::Instant;
 
     use super::super::arguments::{Arguments, Law};
     use super::super::source::Measurement;
     use super::super::unknowns::Unknowns;
-    use super::{Outcome, Study, best};
+    use branched_pendulum_measure::identification::{SearchProgress, best};
+
+    use super::{Outcome, Study};
     use crate::frame::command_line::parse_line;
+
+    fn on(_: &SearchProgress) -> ControlFlow<()> {
+        ControlFlow::Continue(())
+    }
 
     #[test]
     fn a_simulated_chain_is_found_within_its_bars() {
@@ -305,7 +280,7 @@ mod tests {
         let unknowns = Unknowns::new(&arguments).unwrap();
         let measurement = Measurement::new(&arguments, &unknowns).unwrap();
         let study = Study::new(&arguments, &unknowns, &measurement);
-        let outcome = study.outcome(Law::All, None).unwrap();
+        let outcome = study.outcome(Law::All, None, &on).unwrap();
         for (name, truth) in measurement.truth.iter().flatten() {
             let Ok(estimate) = outcome.result().unwrap().determined(name) else {
                 continue;
@@ -326,8 +301,9 @@ mod tests {
         assert!(mismatch.largest[0] < 0.002, "{mismatch:?}");
     }
 
-    /// All that `identify` computes of the measured chain, with the time of each part:
-    /// `cargo test --release -p branched-pendulum-program --lib three_laws -- --ignored --nocapture`
+    /// Runs everything that `identify` computes for the measured chain, and prints the time of each
+    /// part: `cargo test --release -p branched-pendulum-program --lib three_laws -- --ignored
+    /// --nocapture`
     #[test]
     #[ignore = "half a minute"]
     fn three_laws_of_friction_follow_one_another() {
@@ -343,7 +319,7 @@ mod tests {
         let mut outcomes: Vec<Outcome> = Vec::new();
         for &law in &arguments.laws {
             let start = Instant::now();
-            let outcome = study.outcome(law, outcomes.last()).unwrap();
+            let outcome = study.outcome(law, outcomes.last(), &on).unwrap();
             let [first, then] = outcome.windows.each_ref().map(|errors| errors.rms());
             let one = outcome.errors.as_ref().unwrap();
             let [fitted, later] =
@@ -355,7 +331,7 @@ mod tests {
             };
             let found = [first, then, fitted, later];
             println!("{law:?} {found:.6?} in {:.1?}", start.elapsed());
-            for fit in [&outcome.in_windows, &outcome.one_motion].map(best) {
+            for fit in [&outcome.found.in_windows, &outcome.found.one_motion].map(best) {
                 println!("  {}", fit.convergence);
                 let stages = fit.stages.iter();
                 let steps: Vec<_> = stages.map(|stage| (stage.length, stage.steps)).collect();

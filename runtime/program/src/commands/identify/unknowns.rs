@@ -1,4 +1,4 @@
-//! What is known of the parameters of a tree, and the tree as a family of models.
+//! Known facts about the parameters of a tree, and the tree as a family of models.
 
 use branched_pendulum_trees::{ParameterUse, TreeDescription, TreeError};
 
@@ -6,11 +6,11 @@ use super::arguments::{Arguments, Law};
 use crate::Failure;
 use crate::subject::{Described, Subject};
 
-/// A tree whose parameters are looked for.
+/// A tree whose parameters are to be identified.
 #[derive(Clone, Debug)]
 pub struct Unknowns {
-    described: Described,
-    /// All parameters of the description, in their order.
+    pub(super) described: Described,
+    /// All parameters of the description, in order.
     pub parameters: Vec<Parameter>,
 }
 
@@ -19,25 +19,25 @@ pub struct Unknowns {
 pub struct Parameter {
     /// Name in the description.
     pub name: String,
-    /// What is known of it.
+    /// Knowledge about the parameter.
     pub knowledge: Knowledge,
     uses: Vec<ParameterUse>,
 }
 
-/// What is known of a parameter.
+/// Knowledge about a parameter.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Knowledge {
     /// The value.
     Known(f64),
-    /// A value from which it is searched.
+    /// An approximate value at which the search starts.
     Guess(f64),
-    /// The size that it may have; it is searched from 0.
+    /// Only its typical size is known; the search starts at 0.
     Size(f64),
 }
 
 impl Parameter {
-    /// The poorest law of friction that it belongs to; the poorest of all for what is no
-    /// coefficient of friction.
+    /// Returns the simplest friction law that the parameter belongs to; the simplest law of all if
+    /// it is not a friction coefficient.
     pub fn law(&self) -> Law {
         let has = |of| self.uses.contains(&of);
         match self.is_friction() {
@@ -48,26 +48,19 @@ impl Parameter {
         }
     }
 
-    /// Returns true if it is a coefficient of friction and nothing else.
+    /// Returns true if the parameter is used as a friction coefficient only.
     pub fn is_friction(&self) -> bool {
-        let of_friction = |of: &ParameterUse| {
-            matches!(
-                of,
-                ParameterUse::ViscousFriction
-                    | ParameterUse::CoulombFriction
-                    | ParameterUse::QuadraticFriction
-            )
-        };
-        !self.uses.is_empty() && self.uses.iter().all(of_friction)
+        !self.uses.is_empty() && self.uses.iter().all(ParameterUse::is_friction)
     }
 
-    /// Returns true if a scale or a ruler tells it.
+    /// Returns true if the parameter can be measured with scales or a ruler.
     pub fn is_measurable(&self) -> bool {
         let of_scale = |of: &ParameterUse| matches!(of, ParameterUse::Mass | ParameterUse::Place);
         self.uses.iter().any(of_scale)
     }
 
-    /// Size of a coefficient of friction that nothing is known of: N m s, N m or N m s².
+    /// Returns the typical size of a friction coefficient about which nothing is known: in N m s, N
+    /// m or N m s².
     fn size(&self) -> Option<f64> {
         self.is_friction().then(|| match self.law() {
             Law::Viscous | Law::Coulomb => 1e-4,
@@ -77,11 +70,11 @@ impl Parameter {
 }
 
 impl Unknowns {
-    /// Reads the tree of the arguments, and what is known of it.
+    /// Reads the tree given in the arguments, and what is known about its parameters.
     ///
     /// # Errors
-    /// [`Failure::NoTree`] and [`Failure::Tree`]; [`Failure::Lacking`] for parameters of which
-    /// nothing is known, and where nothing is to be found.
+    /// [`Failure::NoTree`] and [`Failure::Tree`]; [`Failure::Lacking`] if nothing is known about a
+    /// parameter, or if there is no unknown parameter.
     pub fn new(arguments: &Arguments) -> Result<Self, Failure> {
         let described = arguments.tree.described()?;
         let asked: Vec<_> = arguments.unknown.iter().flatten().collect();
@@ -117,15 +110,16 @@ impl Unknowns {
             false => Ok(unknowns),
             true => Err(Failure::Lacking {
                 what: format!(
-                    "nothing of the tree `{}` is to be found: write names in place of numbers in its \
-                     description, as in `mass = m`, and name them by `--unknown m=0.1`",
+                    "the tree `{}` has no unknown parameter: write names instead of numbers in \
+                     its description, as in `mass = m`, and declare them by `--unknown m=0.1`",
                     unknowns.described.name
                 ),
             }),
         }
     }
 
-    /// The laws that search for other parameters than those before them.
+    /// Returns those of the requested laws that have more unknown parameters than the laws before
+    /// them.
     pub fn laws(&self, asked: &[Law]) -> Vec<Law> {
         let searched = |law: Law| {
             let all = self.parameters.iter();
@@ -140,7 +134,7 @@ impl Unknowns {
         laws
     }
 
-    /// The parameter of this name; none for offsets and ratios.
+    /// Returns the parameter with this name; `None` for offsets and ratios.
     pub fn parameter(&self, name: &str) -> Option<&Parameter> {
         self.parameters.iter().find(|own| own.name == name)
     }
@@ -155,17 +149,17 @@ impl Unknowns {
         self.described.description.clone()
     }
 
-    /// The tree with values of all parameters.
+    /// Returns the tree for the given values of all parameters.
     ///
     /// # Errors
-    /// [`Failure::Tree`] for values that no pendulum can have.
+    /// [`Failure::Tree`] for values that are not physical.
     pub fn subject(&self, values: &[f64]) -> Result<Subject, Failure> {
         let names = self.parameters.iter().map(|own| own.name.as_str());
         let values: Vec<_> = names.zip(values.iter().copied()).collect();
         self.described.subject(&values)
     }
 
-    /// The tree with values that need not be possible.
+    /// Returns the tree for values that need not be physical.
     ///
     /// # Errors
     /// [`Failure::Tree`] for too few values.
@@ -175,7 +169,7 @@ impl Unknowns {
         Ok(described.with_tree(tree.map_err(|source| described.refused(source))?))
     }
 
-    /// Values from which the search begins.
+    /// Returns the values at which the search starts.
     pub fn guesses(&self) -> Vec<f64> {
         let values = self.parameters.iter().map(|own| match own.knowledge {
             Knowledge::Known(value) | Knowledge::Guess(value) => value,
@@ -184,12 +178,13 @@ impl Unknowns {
         values.collect()
     }
 
-    /// Offsets of links that are known, rad.
+    /// Returns the known offsets of the links' angles, in rad.
     pub fn offsets(&self) -> &[(String, f64)] {
         &self.described.offsets
     }
 
-    /// Values of a simulated tree: unknown ones are some 20 % off from their guesses.
+    /// Returns the values for a simulated tree: unknown parameters differ from their guesses by
+    /// about 20 %.
     pub fn simulated(&self) -> Vec<f64> {
         let mut guesses = (0..9).cycle();
         let values = self.parameters.iter().map(|own| match own.knowledge {
@@ -204,13 +199,13 @@ impl Unknowns {
 }
 
 impl Parameter {
-    /// Returns true if a fit with this law searches for it.
+    /// Returns true if a fit with this law searches for the parameter.
     fn is_searched(&self, law: Law) -> bool {
         !matches!(self.knowledge, Knowledge::Known(_)) && self.law() <= law
     }
 }
 
-/// What is known of a parameter by the options and by the tree.
+/// Returns what is known about a parameter from the options and from the tree.
 fn knowledge(
     described: &Described,
     parameter: &Parameter,
@@ -227,7 +222,8 @@ fn knowledge(
             None => Ok(Knowledge::Known(*value)),
             Some(_) => Err(Failure::Lacking {
                 what: format!(
-                    "`{name}` is known by `--set` and unknown by `--unknown`: give one of them"
+                    "`{name}` is given both as known (`--set`) and as unknown (`--unknown`): \
+                     leave out one of them"
                 ),
             }),
         };
@@ -245,8 +241,8 @@ fn knowledge(
         (_, Some(size)) if !is_held => Ok(Knowledge::Size(size)),
         _ => Err(Failure::Lacking {
             what: format!(
-                "of `{name}`{} nothing is known: give its value by `--set {name}=VALUE`, or one from \
-                 which it is searched by `--unknown {name}=GUESS`",
+                "parameter `{name}`{} has no value: give its value by `--set {name}=VALUE`, or a \
+                 starting value for the search by `--unknown {name}=GUESS`",
                 described
                     .description
                     .parameter_use(name)
@@ -271,8 +267,8 @@ mod tests {
         Unknowns::new(&arguments).unwrap()
     }
 
-    /// The equations of a family are those of its trees, and their derivatives with respect to a
-    /// parameter those by differences.
+    /// Checks that the equations of a family are those of its trees, and that their derivatives by
+    /// a parameter agree with differences.
     #[test]
     fn a_family_is_its_trees() {
         for tree in ["paper", "apparatus", "double-pendulum", "chain", "cascade"] {

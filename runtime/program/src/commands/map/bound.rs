@@ -1,21 +1,21 @@
-//! The energy below which nothing turns over.
+//! Energy below which no link can turn over.
 
 use branched_pendulum::prelude::*;
 use branched_pendulum::system::Energy;
 use branched_pendulum_charts::{Color, Dash, Series};
 use branched_pendulum_trees::PendulumTree;
 
-use super::plane::{MapPlane, Point};
 use crate::Failure;
+use crate::commands::plane::{MapPlane, Point};
 
-/// Colour of the curve, which is seen on dark blue, on yellow and on grey.
+/// Colour of the curve, visible on dark blue, yellow and grey.
 const CURVE: Color = Color::rgb(225, 70, 60);
 
-/// The potential energy Σ G (1 − cos θ) + F sin θ of a tree without springs, in J.
+/// Potential energy Σ G (1 − cos θ) + F sin θ (J) of a tree without springs.
 struct GravityPotential(Vec<[f64; 2]>);
 
 impl GravityPotential {
-    /// Returns the gravity of a tree; none where its potential energy is not of that form.
+    /// Returns the gravity potential of a tree; `None` if its potential energy has another form.
     fn of(tree: &PendulumTree) -> Option<Self> {
         use std::f64::consts::{FRAC_PI_2, PI};
         let links = tree.links();
@@ -41,8 +41,8 @@ impl GravityPotential {
         (difference.abs() <= 1e-12 * size).then_some(own)
     }
 
-    /// Returns the energy of the lowest configuration with one of these links upside down, above
-    /// that with all angles zero.
+    /// Returns the energy of the lowest configuration in which one of these links is upside down,
+    /// relative to the configuration with all angles zero.
     fn lowest_inverted(&self, links: &[usize]) -> f64 {
         let lowest = |[g, f]: &[f64; 2]| g - g.hypot(*f);
         let all: f64 = self.0.iter().map(lowest).sum();
@@ -52,9 +52,9 @@ impl GravityPotential {
     }
 }
 
-/// Returns the energy of the start at each point, above that of the lowest configuration with one
-/// of these links upside down, in J: where it is negative, none of them ever turns over, since
-/// friction takes energy. None of a tree with springs, or that is driven.
+/// Returns, for each point, the energy of the start minus the energy of the lowest configuration
+/// with one of these links upside down, in J. If it is negative, none of the links ever turns over,
+/// because friction removes energy. `None` if the tree has springs or is driven.
 ///
 /// # Errors
 /// [`Failure::Tree`].
@@ -75,8 +75,8 @@ pub(super) fn excess(
     Ok(excess.collect())
 }
 
-/// Returns the curve on which the excess is zero, between the points of a plane row by row; none
-/// where it has one sign.
+/// Returns the curve on which this energy difference is zero; `excess` has its values at the points
+/// of the plane, row by row. `None` if they all have the same sign.
 pub(super) fn curve(plane: &MapPlane<'_>, excess: &[f64]) -> Option<Series> {
     let ([columns, rows], points) = (plane.size(), plane.points());
     let (mut x, mut y) = (Vec::new(), Vec::new());
@@ -91,7 +91,7 @@ pub(super) fn curve(plane: &MapPlane<'_>, excess: &[f64]) -> Option<Series> {
             place(row, column),
             place(row, column - 1),
         ];
-        // Where the sides of the cell are crossed: at two places, or at four beside a saddle.
+        // Where the sides of the cell are crossed: at two places, or at four next to a saddle.
         let crossed = (0..4).filter_map(|side| {
             let (one, other) = (corners[side], corners[(side + 1) % 4]);
             let (a, b) = (excess[one], excess[other]);

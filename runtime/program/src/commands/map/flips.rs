@@ -1,4 +1,4 @@
-//! Time until a link first flips, at every point.
+//! Time until a link first turns over, at every point of a map.
 
 use branched_pendulum::analysis::growth::Checked;
 use branched_pendulum::integrate::{Crossing, Ending, StopReason};
@@ -8,20 +8,20 @@ use branched_pendulum_data::{Cell, Column};
 use branched_pendulum_trees::PendulumTree;
 
 use super::bound;
-use super::plane::{MapPlane, Point, Question, cells, marks, shaded};
 use crate::Failure;
+use crate::commands::plane::{MapPlane, Point, Question, cells, marks, shaded};
 use crate::frame::Job;
 
-/// Colour of points without a flip, which the scale of times has not.
+/// Colour of points without a flip; it does not occur in the colour scale of times.
 const NO_FLIP: Color = Color::rgb(232, 232, 232);
 
-/// Part of the tolerance with which all is repeated.
+/// Ratio of the tighter tolerance, with which everything is repeated, to the looser one.
 const FINER: f64 = 0.01;
 
-/// How long is it until one of the links first turns over?
+/// Question of a map: how long does it take until one of the links first turns over?
 ///
-/// A link flips where its angle passes an odd multiple of π: it points away from where it points
-/// at angle zero.
+/// A link flips when its angle passes an odd multiple of π: it then points opposite to its
+/// direction at angle zero.
 pub(super) struct Flips<'a> {
     pub(super) plane: &'a MapPlane<'a>,
     /// Links that are looked at.
@@ -31,25 +31,25 @@ pub(super) struct Flips<'a> {
     pub(super) tolerance: f64,
     /// Points that the map marks.
     pub(super) marked: &'a [Point],
-    /// Energy at each point above that of the lowest inverted configuration, J; empty for trees
-    /// that have none.
+    /// Energy at each point relative to the lowest inverted configuration, in J; empty if it is not
+    /// defined for the tree.
     pub(super) excess: Vec<f64>,
 }
 
 /// A tree with its start.
 type TreeStart<'a> = (AbsoluteAngles<&'a PendulumTree>, State<f64>);
 
-/// The first flip of a motion.
+/// First flip of a motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Flip {
-    /// Time of it, s; not a number where there is none.
+    /// Time of the flip in s; NaN if there is none.
     time: Checked,
     /// The link that flips.
     link: Option<usize>,
 }
 
 impl Flip {
-    /// Of the time and the link by two tolerances; none where nothing flips.
+    /// Combines the results (time and link) for two tolerances; each is `None` if nothing flips.
     fn of(coarse: Option<(f64, usize)>, fine: Option<(f64, usize)>) -> Self {
         let difference = match (coarse, fine) {
             (None, None) => 0.0,
@@ -68,7 +68,7 @@ impl Flip {
     }
 }
 
-/// A function of an angle that changes its sign where a link flips, and nowhere else.
+/// Returns a function of an angle that changes its sign when a link flips, and only then.
 fn upright(angle: f64) -> f64 {
     let cosine = (0.5 * angle).cos();
     // No number is π: a link that starts upside down is on neither side, whichever way the
@@ -80,8 +80,8 @@ fn upright(angle: f64) -> f64 {
 }
 
 impl Flips<'_> {
-    /// Returns the first flips of trees of one shape from their starts; none where the motion could
-    /// not be followed.
+    /// Returns the first flips of trees of one shape, each from its start; `None` if the motion
+    /// could not be integrated.
     fn of_releases(
         &self,
         releases: &[TreeStart<'_>],
@@ -233,7 +233,7 @@ impl Question for Flips<'_> {
     }
 }
 
-/// Numbers of points with a flip, and of those that are not determined.
+/// Returns the number of points with a flip, and the number of points that are not determined.
 fn counts(found: &[(Point, Flip)]) -> [usize; 2] {
     let flipped = found.iter().filter(|(_, flip)| flip.link.is_some());
     let open = found.iter().filter(|(_, flip)| !flip.time.is_determined());

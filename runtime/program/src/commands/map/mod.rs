@@ -1,37 +1,38 @@
-//! A quantity over a plane of two others: growth rates, times of flips.
+//! Maps of a quantity over a plane of two others: growth rates, or times of flips.
 
 mod bound;
 mod flips;
 mod normal_modes;
-mod plane;
 mod rates;
 mod tongues;
 
+use branched_pendulum::analysis::normal_form::NormalFormOptions;
 use branched_pendulum_data::Cell;
 use clap::{Parser, ValueEnum};
 
 use self::flips::Flips;
-use self::plane::{AxisValues, MapPlane, Point, Question};
 use self::rates::Rates;
-use super::growth::PairArguments;
+use super::differences::PairArguments;
+use super::plane::{AxisValues, MapPlane, Point, Question};
+use super::predicted::Theory;
 use crate::Failure;
 use crate::frame::command_line::{number, parts};
 use crate::frame::{Charts, Job};
 use crate::release::ReleaseArguments;
 use crate::subject::TreeArguments;
 
-/// Where in a plane do differences between copies grow, and how fast? Or when does a link
-/// first flip? Each axis is the angle of a link at the start, or a parameter of the
-/// description. Draws the growth rate of a small difference beside the motion in phase, or
-/// the time until the first flip, from rest.
+/// Maps over a plane how fast differences between copies grow, or when a link first flips. Each
+/// axis is the angle of a link at the start, or a parameter of the description. Draws the growth
+/// rate of a small difference along the in-phase motion, or the time until the first flip; motions
+/// start at rest.
 ///
 /// Of a tree that mirrors itself, twice the frequency of a difference that grows is a sum
 /// of whole multiples of those of the motion in phase: `--tongues` lists where it grows,
 /// with the multiples.
 ///
-/// A link flips where its angle passes an odd multiple of 180°: it points away from where
-/// it points at angle zero. The time is that of the first link that does so. A link that
-/// starts there flips when it comes back.
+/// A link flips when its angle passes an odd multiple of 180°: it then points opposite to its
+/// direction at angle zero. The time is that of the first link that does so. A link that starts
+/// there flips when it comes back.
 ///
 /// Every value is computed at two tolerances; where they differ by more than 1 % it counts
 /// as not determined, and is drawn all the same.
@@ -42,16 +43,16 @@ pub struct Arguments {
     tree: TreeArguments,
     #[command(flatten)]
     release: ReleaseArguments,
-    /// what is computed at every point
+    /// quantity that is computed at every point
     #[arg(long, value_enum, value_name = "QUANTITY", default_value_t = Of::Growth)]
     of: Of,
     #[command(flatten)]
     pair: PairArguments,
-    /// flip: the links whose flips count, by their names; all of them, unless they are named
+    /// flip: names of the links whose flips count; by default all links
     #[arg(long, value_name = "LINK[,..]")]
     link: Option<String>,
     /// horizontal axis: a link with its angles in degrees, or a parameter with its values;
-    /// all copies of a link have one name, and names joined by `+` one angle
+    /// a name stands for all copies of a link; links joined by `+` have the same angle
     #[arg(
         verbatim_doc_comment,
         long,
@@ -60,7 +61,8 @@ pub struct Arguments {
         value_parser = AxisValues::read
     )]
     x: AxisValues,
-    /// vertical axis, written alike; in place of a step `xRATIO` is a ratio of neighbours
+    /// vertical axis, in the same form as `--x`; instead of a step, `xRATIO` is the ratio of
+    /// neighbouring values
     #[arg(
         long,
         value_name = "NAME=FROM:TO:STEP",
@@ -68,32 +70,36 @@ pub struct Arguments {
         value_parser = AxisValues::read
     )]
     y: AxisValues,
-    /// growth: draws the nonlinear normal modes of the motion in phase, where the plane is that
-    /// of the releases of all its two angles
+    /// growth: draws the nonlinear normal modes of the in-phase motion, if the axes are the release
+    /// angles of its only two angles
     #[arg(verbatim_doc_comment, long)]
     modes: bool,
-    /// growth: lists the tongues of instability on lines across the plane, at these values of
-    /// one of its axes, followed eight times as long
+    /// growth: lists the tongues of instability on lines across the plane, at these values of one
+    /// axis; motions on these lines are integrated eight times as long
     #[arg(verbatim_doc_comment, long, value_name = "NAME=VALUE[,VALUE]...", value_parser = AxisValues::read_values)]
     tongues: Vec<AxisValues>,
+    /// growth: also predicts the tongues on these lines by the normal form of degree 8, and draws
+    /// their edges
+    #[arg(verbatim_doc_comment, long, requires = "tongues")]
+    theory: bool,
     /// points that the map marks
     #[arg(long, value_name = "X:Y[,X:Y]...", value_parser = points, allow_hyphen_values = true)]
     mark: Option<::std::vec::Vec<Point>>,
-    /// time followed, s from 1 to 1000
+    /// duration of each motion, s from 1 to 1000
     #[arg(long, value_name = "S", default_value = "15", value_parser = number(1.0..=1000.0, "s"))]
     duration: f64,
-    /// relative error of one integration step, 1e-12 to 1e-3; all is repeated with a
-    /// hundredth of it, whose values are reported
+    /// relative error of one integration step, 1e-12 to 1e-3; everything is repeated with a
+    /// hundredth of it, and the values of the repetition are reported
     #[arg(verbatim_doc_comment, long, value_name = "TOL", default_value = "1e-8", value_parser = number(1e-12..=1e-3, ""))]
     tolerance: f64,
 }
 
-/// What is computed at every point of the plane.
+/// Quantity that a map shows at every point of the plane.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 enum Of {
     /// Growth rate of a small difference between copies, 1/s.
     Growth,
-    /// Time until a link first flips, s.
+    /// Time until a link first flips (turns over), s.
     Flip,
 }
 
@@ -103,11 +109,14 @@ impl crate::frame::Arguments for Arguments {
 
     fn check(&self) -> Result<(), String> {
         if self.x.name == self.y.name {
-            return Err(format!("both axes are `{}`: name another one", self.x.name));
+            return Err(format!(
+                "both axes are `{}`: choose another name for one of them",
+                self.x.name
+            ));
         }
         if self.of == Of::Flip && (self.modes || !self.tongues.is_empty()) {
             return Err(
-                "`--modes` and `--tongues` are those of a growth: leave them out, or map it with \
+                "`--modes` and `--tongues` apply only to a map of growth: leave them out, or add \
                  `--of growth`"
                     .to_owned(),
             );
@@ -117,11 +126,10 @@ impl crate::frame::Arguments for Arguments {
                 Err("`--link` names the links whose flips count: add `--of flip`".to_owned())
             }
             Of::Flip if self.pair.is_given() => Err(
-                "`--pair` names copies between which differences grow: leave it out, or map \
-                 their growth with `--of growth`"
+                "`--pair` applies only to a map of growth: leave it out, or add `--of growth`"
                     .to_owned(),
             ),
-            _ => Ok(()),
+            Of::Growth | Of::Flip => Ok(()),
         }
     }
 }
@@ -132,18 +140,18 @@ fn points(text: &str) -> Result<Vec<Point>, String> {
         let number = |text: &str| text.trim().parse::<f64>().ok();
         let both = part.split_once(':');
         let both = both.and_then(|(x, y)| Some([number(x)?, number(y)?]));
-        both.ok_or_else(|| format!("`{part}` is no point `X:Y`"))
+        both.ok_or_else(|| format!("`{part}` is not a point `X:Y`"))
     };
     parts(text).map(point).collect()
 }
 
-/// Computes the map and writes it; Ctrl-C leaves the points that are done.
+/// Computes the map and writes it; after Ctrl-C, the completed points are written.
 ///
 /// # Errors
 /// [`Failure`].
 pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
     let subject = arguments.tree.read()?;
-    subject.record(job);
+    subject.record(job)?;
     let (duration, tolerance) = (arguments.duration, arguments.tolerance);
     let plane = || {
         let start = arguments.release.state(&subject)?;
@@ -151,16 +159,24 @@ pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
     };
     match arguments.of {
         Of::Growth => {
-            // A tree without copies has no such map at all, whatever the axes.
+            // A tree without copies has no such map, with any axes.
             let copies = arguments.pair.copies(&subject)?;
             let plane = &plane()?;
             if arguments.modes {
                 normal_modes::check(plane)?;
             }
             let lines = arguments.tongues.iter().map(|line| plane.lines(line));
+            let theory = Theory {
+                options: NormalFormOptions::default(),
+                copies: &copies,
+                name: &subject.name,
+                least: 0.0,
+            };
             let rates = Rates {
                 plane,
-                copies,
+                copies: &copies,
+                theory: arguments.theory.then_some(theory),
+                predicted: Vec::new(),
                 duration,
                 tolerance,
                 marked: arguments.mark.as_deref().unwrap_or_default(),
@@ -190,7 +206,7 @@ pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
     }
 }
 
-/// Answers a question at all points of the plane, and writes what was found.
+/// Computes the answer to a question at all points of the plane, and writes the results.
 fn answer<Q: Question>(job: &Job, plane: &MapPlane<'_>, mut question: Q) -> Result<(), Failure> {
     let points = plane.points();
     let progress = job.progress(points.len());

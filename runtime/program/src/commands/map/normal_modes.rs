@@ -1,4 +1,4 @@
-//! The nonlinear normal modes of the motion in phase, as curves through the plane of releases.
+//! Nonlinear normal modes of the in-phase motion, as curves in the plane of releases.
 
 use std::fmt::Write;
 
@@ -9,15 +9,15 @@ use branched_pendulum::prelude::*;
 use branched_pendulum::sectors::{Sector, SectorCoordinate, Sectors};
 use branched_pendulum_trees::PendulumTree;
 
-use super::plane::{MapPlane, Point};
 use crate::Failure;
-use crate::commands::growth::out_of_phase;
+use crate::commands::differences::start_apart;
+use crate::commands::plane::{MapPlane, Point};
 
-/// A mode, from its linear oscillation on.
+/// A nonlinear normal mode, beginning with its linear oscillation.
 pub(super) struct NormalMode {
     /// Frequency of small motions, Hz.
     frequency_hz: f64,
-    /// Motions of the mode, from small to large, as points of the plane, with their periods.
+    /// Motions of the mode, from small to large: points of the plane, with their periods.
     releases: Vec<(Point, f64)>,
     /// Growth of differences along each.
     floquet: Vec<Floquet>,
@@ -29,15 +29,15 @@ const TOLERANCE: f64 = 1e-10;
 /// Longest step along a mode, rad.
 const STEP: f64 = 0.04;
 
-/// Growth rate from which on differences grow along a motion, 1/s.
+/// Growth rate (1/s) from which on differences count as growing along a motion.
 const LEAST: f64 = 1e-4;
 
-/// The linear modes of a tree whose copies are in phase.
+/// Linear modes of a tree whose copies are in phase.
 pub(super) struct InPhaseModes {
     sector: Sector,
-    /// Where the coordinates rest, rad.
+    /// Equilibrium values of the coordinates, in rad.
     rest: Vec<f64>,
-    /// Mass matrix there, by orthonormal coordinates, kg m².
+    /// Mass matrix at equilibrium, in orthonormal coordinates, kg m².
     mass: Vec<Vec<f64>>,
     modes: Modes,
 }
@@ -62,19 +62,19 @@ impl InPhaseModes {
         &self.modes.frequencies_hz
     }
 
-    /// Returns the coordinates from their rest at angles of all links.
+    /// Returns the coordinates relative to equilibrium, given the angles of all links.
     pub(super) fn coordinates(&self, theta: &[f64]) -> Vec<f64> {
         let both = self.sector.coordinates().iter().zip(&self.rest);
         both.map(|(own, rest)| own.of(theta) - rest).collect()
     }
 
-    /// Returns the rates of the coordinates at angular velocities of all links.
+    /// Returns the rates of the coordinates, given the angular velocities of all links.
     pub(super) fn rates(&self, omega: &[f64]) -> Vec<f64> {
         let coordinates = self.sector.coordinates().iter();
         coordinates.map(|own| own.of(omega)).collect()
     }
 
-    /// Returns the part of a mode in coordinates or in their rates.
+    /// Returns the component of a mode in given coordinates, or in their rates.
     pub(super) fn part(&self, mode: usize, values: &[f64]) -> f64 {
         let rows = self.modes.shapes[mode].iter().zip(&self.mass);
         let orthonormal = |(own, value): (&SectorCoordinate, &f64)| own.norm().sqrt() * value;
@@ -86,7 +86,7 @@ impl InPhaseModes {
         along.sum()
     }
 
-    /// Returns the shape of a mode in its coordinates.
+    /// Returns the shape of a mode as a vector of coordinates.
     fn shape(&self, mode: usize) -> Vec<f64> {
         let coordinates = self.sector.coordinates().iter();
         let shape = coordinates.zip(&self.modes.shapes[mode]);
@@ -94,20 +94,21 @@ impl InPhaseModes {
     }
 }
 
-/// Passes a plane in which the motions in phase have curves: its axes are all their coordinates.
+/// Checks that the plane can show the curves of the modes: its axes must be all coordinates of the
+/// in-phase motion.
 pub(super) fn check(plane: &MapPlane<'_>) -> Result<(), Failure> {
     match axes(plane) {
         Some(_) => Ok(()),
         None => Err(Failure::Lacking {
-            what: "`--modes`: nonlinear normal modes are curves where the motion in phase has two \
-                   angles, those of both axes: name each by its link or by the common name of \
-                   its copies"
+            what: "`--modes`: nonlinear normal modes are drawn as curves if the in-phase motion \
+                has two angles, which are the two axes: name each axis by its link or by the \
+                common name of its copies"
                 .to_owned(),
         }),
     }
 }
 
-/// Returns the coordinate in phase of each axis.
+/// Returns the index of the in-phase coordinate of each axis.
 fn axes(plane: &MapPlane<'_>) -> Option<[usize; 2]> {
     let coordinates = plane.subject.tree.sectors().first()?.coordinates();
     let place = |links: &[usize]| {
@@ -121,11 +122,11 @@ fn axes(plane: &MapPlane<'_>) -> Option<[usize; 2]> {
     (coordinates.len() == 2 && both[0] != both[1]).then_some(both)
 }
 
-/// Returns the modes up to the largest angle of the plane.
+/// Returns the nonlinear modes up to the largest angle of the plane.
 ///
 /// # Errors
-/// [`Failure::SectorModes`], [`Failure::Growth`], or [`Failure::Tree`] for copies that do not move
-/// alike.
+/// [`Failure::SectorModes`], [`Failure::Growth`], or [`Failure::Tree`] if the copies do not stay in
+/// phase.
 pub(super) fn of(plane: &MapPlane<'_>, copies: &Copies) -> Result<Vec<NormalMode>, Failure> {
     let (tree, Some(axes)) = (&plane.subject.tree, axes(plane)) else {
         return Ok(Vec::new());
@@ -136,7 +137,7 @@ pub(super) fn of(plane: &MapPlane<'_>, copies: &Copies) -> Result<Vec<NormalMode
     let system = linearised(in_phase.clone());
     let differences = tree.in_phase(copies);
     let differences = differences.and_then(|own| own.with_differences(copies));
-    let differences = differences.map_err(|_| out_of_phase())?;
+    let differences = differences.map_err(|_| start_apart())?;
     let continuation = Continuation {
         tolerance: TOLERANCE,
         step: STEP,
@@ -172,7 +173,8 @@ pub(super) fn of(plane: &MapPlane<'_>, copies: &Copies) -> Result<Vec<NormalMode
 }
 
 impl NormalMode {
-    /// Returns the curve of releases through the plane, to both sides.
+    /// Returns the curve of the mode's releases through the plane, to both sides of the
+    /// equilibrium.
     pub(super) fn curve(&self) -> [Vec<f64>; 2] {
         let one = || self.releases.iter().map(|(point, _)| *point);
         let other = one().rev().map(|point| point.map(|angle| -angle));
@@ -182,7 +184,7 @@ impl NormalMode {
     }
 }
 
-/// Returns the ends of the modes, and where differences grow along them, in words.
+/// Describes the ends of the modes, and where differences grow along them.
 pub(super) fn text(modes: &[NormalMode]) -> String {
     let mut text = String::new();
     for (number, mode) in modes.iter().enumerate() {

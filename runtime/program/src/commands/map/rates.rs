@@ -1,4 +1,4 @@
-//! Growth rate of a small difference between copies at every point.
+//! Growth rate of a small difference between copies, at every point of a map.
 
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -11,28 +11,36 @@ use branched_pendulum_data::{Cell, Column};
 use branched_pendulum_trees::{DifferenceGrowth, PendulumTree};
 
 use super::normal_modes::{self, NormalMode};
-use super::plane::{MapPlane, Point, Question, marks, shaded};
 use super::tongues::{self, Tongue};
 use crate::Failure;
-use crate::commands::growth::{differences_of, out_of_phase};
+use crate::commands::differences::{differences_of, start_apart};
+use crate::commands::plane::{MapPlane, Point, Question, marks, shaded};
+use crate::commands::predicted::{PredictedLine, Theory};
 use crate::frame::Job;
 
-/// Colours of lines that are seen on dark blue and on yellow.
+/// Colours of lines that are visible on dark blue and on yellow.
 const LINES: [Color; 2] = [Color::rgb(225, 70, 60), Color::rgb(70, 200, 245)];
 
-/// Growth rates between which colours change, 1/s.
+/// Colour of predicted edges, visible on dark blue and on yellow.
+const EDGES: Color = Color::rgb(255, 255, 255);
+
+/// Range of growth rates (1/s) over which colours change.
 const RATES: [f64; 2] = [0.01, 5.0];
 
-/// How fast do differences between copies grow?
+/// Question of a map: how fast do differences between copies grow?
 pub(super) struct Rates<'a> {
     pub(super) plane: &'a MapPlane<'a>,
-    pub(super) copies: Copies,
+    pub(super) copies: &'a Copies,
+    /// Normal forms of the trees, if tongues are predicted.
+    pub(super) theory: Option<Theory<'a>>,
+    /// Predictions along lines, each with the axis along which its line runs.
+    pub(super) predicted: Vec<(usize, PredictedLine)>,
     /// Time followed, s.
     pub(super) duration: f64,
     pub(super) tolerance: f64,
     /// Points that the map marks.
     pub(super) marked: &'a [Point],
-    /// Lines on which tongues are looked for.
+    /// Lines on which tongues are searched for.
     pub(super) lines: Vec<Vec<Point>>,
     pub(super) with_modes: bool,
     pub(super) modes: Vec<NormalMode>,
@@ -40,8 +48,8 @@ pub(super) struct Rates<'a> {
 }
 
 impl Rates<'_> {
-    /// Returns the growth within a time at some points; none where the motion could not be
-    /// followed.
+    /// Returns the growth within a duration (s) at some points; `None` where the motion could not
+    /// be integrated.
     pub(super) fn within(
         &self,
         duration: f64,
@@ -59,14 +67,14 @@ impl Rates<'_> {
         });
         let numbers: Vec<usize> = numbers.collect();
         let differences = Ensemble::new().map(&distinct, |_, tree| {
-            differences_of(tree, &self.copies, vec![duration], self.tolerance)
+            differences_of(tree, self.copies, vec![duration], self.tolerance)
         });
         let differences: Vec<_> = differences.into_iter().collect::<Result<_, _>>()?;
         let each = points.iter().zip(numbers);
         let cases = each.map(|(point, number)| (&differences[number], self.plane.start_at(point)));
         let cases: Vec<_> = cases.collect();
         let grown = DifferenceGrowth::of_trees_in_lanes(&Ensemble::new(), &cases);
-        let grown = grown.map_err(|_| out_of_phase())?.into_iter();
+        let grown = grown.map_err(|_| start_apart())?.into_iter();
         grown
             .map(|found| match found {
                 Ok(found) => Ok(Some(found)),
@@ -74,6 +82,42 @@ impl Rates<'_> {
                 Err(error) => Err(error.into()),
             })
             .collect()
+    }
+}
+
+/// Returns the axis along which a line runs.
+fn axis_of(line: &[Point]) -> Option<usize> {
+    let (first, last) = line.first().zip(line.last())?;
+    (0..2).find(|axis| first[*axis] != last[*axis])
+}
+
+impl Rates<'_> {
+    /// Describes the predicted tongues.
+    fn predictions(&self) -> String {
+        let mut text = String::new();
+        for (axis, line) in &self.predicted {
+            let other = 1 - axis;
+            let name = self.plane.names()[other];
+            text.push_str(&format!(
+                "\nBy theory, {name} = {}\n",
+                self.plane.words(other, line.value)
+            ));
+            line.write(&mut text, self.plane, *axis);
+        }
+        text
+    }
+
+    /// Returns the points of the plane at the edges of the predicted tongues.
+    fn predicted_edges(&self) -> Vec<Point> {
+        let edges = self.predicted.iter().flat_map(|(axis, line)| {
+            let tongues = line.tongues.tongues.iter();
+            let edges = tongues.flat_map(|tongue| tongue.edges);
+            edges.map(move |edge| match axis {
+                0 => [edge.value, line.value],
+                _ => [line.value, edge.value],
+            })
+        });
+        edges.collect()
     }
 }
 
@@ -87,11 +131,15 @@ impl Question for Rates<'_> {
 
     fn complete(&mut self, job: &Job) -> Result<(), Failure> {
         if self.with_modes && !job.is_interrupted() {
-            self.modes = normal_modes::of(self.plane, &self.copies)?;
+            self.modes = normal_modes::of(self.plane, self.copies)?;
         }
         for line in &self.lines {
             if !job.is_interrupted() {
                 self.tongues.extend(tongues::along(self, line)?);
+                if let (Some(theory), Some(axis)) = (&self.theory, axis_of(line)) {
+                    let line = theory.along(self.plane, line, axis)?;
+                    self.predicted.push((axis, line));
+                }
             }
         }
         Ok(())
@@ -128,7 +176,7 @@ impl Question for Rates<'_> {
         };
         format!(
             "{}: {} points, {:.1} % with a growth rate below {} 1/s, {:.1} % with one above 1 1/s.\n\
-             At {} the two tolerances differ by more than 1 %{lost}.\n{}{}",
+             At {} the two tolerances differ by more than 1 %{lost}.\n{}{}{}",
             self.plane.subject.name,
             found.len(),
             share(&|rate| rate < RATES[0]),
@@ -137,6 +185,7 @@ impl Question for Rates<'_> {
             open.count(),
             normal_modes::text(&self.modes),
             tongues::text(self),
+            self.predictions(),
         )
     }
 
@@ -159,6 +208,12 @@ impl Question for Rates<'_> {
                 let label = format!("nonlinear normal mode f_{}", number + 1);
                 panel.series(Series::line(label, &x, &y).color(color).dash(Dash::Solid))
             });
+            let edges = self.predicted_edges();
+            let [x, y] = [0, 1].map(|axis| edges.iter().map(|edge| edge[axis]).collect::<Vec<_>>());
+            let panel = match edges.is_empty() {
+                true => panel,
+                false => panel.series(Series::points("edges by theory", &x, &y).color(EDGES)),
+            };
             marks(panel, self.marked)
         });
         chart.colors(colors)

@@ -1,5 +1,5 @@
-//! Tongues of instability along lines through the plane: where the growth rate is largest
-//! across them, and the frequencies there.
+//! Tongues of instability along lines through the plane: where the growth rate is largest, and the
+//! frequencies there.
 
 use std::fmt::Write;
 
@@ -8,47 +8,48 @@ use branched_pendulum::prelude::*;
 use branched_pendulum_measure::CombinationTone;
 
 use super::normal_modes::InPhaseModes;
-use super::plane::Point;
 use super::rates::Rates;
 use crate::Failure;
+use crate::commands::plane::Point;
 use crate::frame::windows::windows;
 
-/// A tongue of instability, crossed by a line.
+/// A tongue of instability on a line.
 pub(super) struct Tongue {
-    /// First and last point on the line from which differences grow.
+    /// First and last point of the line from which differences grow.
     edges: [Point; 2],
     /// The place of largest growth.
     place: Point,
     /// Growth rate there, 1/s.
     rate: f64,
-    /// Turns of the difference a second, f_eff, Hz.
+    /// Frequency of the difference, in turns per second, f_eff (Hz).
     effective: f64,
-    /// Frequencies of the motion in phase, by its linear modes, Hz.
+    /// Frequencies of the in-phase motion, one for each of its linear modes, in Hz.
     modes: Vec<f64>,
-    /// The resonance, if one is within [`CLOSE`].
+    /// The resonance with a mismatch of at most [`CLOSE`], if there is one.
     resonance: Option<Resonance>,
 }
 
-/// A resonance f_eff = Σ n f/2 with an even Σ n.
+/// A resonance f_eff = Σ n f/2 with an even Σ n, where f are the frequencies of the in-phase
+/// motion.
 struct Resonance {
     tone: CombinationTone,
-    /// f_eff − Σ n f/2, Hz.
+    /// Mismatch f_eff − Σ n f/2, in Hz.
     mismatch: f64,
 }
 
-/// Largest mismatch of a resonance, Hz.
+/// Largest mismatch at which frequencies count as resonant, in Hz.
 const CLOSE: f64 = 2e-3;
 
 /// Largest Σ |n|.
 const HIGHEST: u32 = 4;
 
-/// Time over which frequencies are taken, in times that the map follows.
+/// Time over which frequencies are measured, relative to the duration of the map's motions.
 const SPANS: f64 = 8.0;
 
-/// Growth rate from which on a place counts as unstable, 1/s.
+/// Growth rate (1/s) from which on a point counts as unstable.
 const LEAST: f64 = 0.02;
 
-/// Finds the tongues along a line; none where the motion is chaotic.
+/// Finds the tongues along a line; there are none where the motion is chaotic.
 ///
 /// # Errors
 /// [`Failure`].
@@ -81,7 +82,7 @@ pub(super) fn along(rates: &Rates<'_>, line: &[Point]) -> Result<Vec<Tongue>, Fa
 }
 
 impl Resonance {
-    /// The lowest one that is close.
+    /// Returns the lowest-order resonance that is close enough.
     fn of(effective: f64, modes: &[f64]) -> Option<Self> {
         let tone = CombinationTone::find(2.0 * effective, modes, HIGHEST, 2.0 * CLOSE)?;
         let sum = tone.multiples.iter().zip(modes);
@@ -94,7 +95,8 @@ impl Resonance {
     }
 }
 
-/// Frequencies of a motion in phase: turns of the parts of the modes in it.
+/// Measures the frequencies of an in-phase motion: the turns per second of its component in each
+/// mode.
 fn frequencies(rates: &Rates<'_>, place: Point, span: f64) -> Result<Vec<f64>, Failure> {
     const LOOKS_A_SECOND: f64 = 50.0;
     let looks = (LOOKS_A_SECOND * span).ceil();
@@ -125,7 +127,8 @@ fn frequencies(rates: &Rates<'_>, place: Point, span: f64) -> Result<Vec<f64>, F
     Ok(found.collect())
 }
 
-/// Returns the places of largest growth, with their frequencies, in words.
+/// Returns a table of the points at which differences grow most, with the frequencies of the modes
+/// there.
 pub(super) fn text(rates: &Rates<'_>) -> String {
     let Some(first) = rates.tongues.first() else {
         return String::new();

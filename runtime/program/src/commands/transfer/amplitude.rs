@@ -1,4 +1,5 @@
-//! Errors of the forms of W against the amplitude of the differences, with what each form costs.
+//! Errors of the forms of the energy transfer W against the amplitude of the differences, and the
+//! cost of each form.
 
 use branched_pendulum::analysis::truncation::{
     AlongTrajectories, Background, ErrorCurve, PhaseAverage, TreeForms, logarithmic,
@@ -15,29 +16,29 @@ use crate::Failure;
 use crate::frame::Job;
 use crate::subject::Subject;
 
-/// Smallest and largest amplitude looked at, rad.
+/// Smallest and largest amplitude that is examined, in rad.
 const AMPLITUDES: [f64; 2] = [1e-3, 1.5];
 
-/// Amplitudes of the phase average, and bins of the trajectories.
+/// Number of amplitudes of the phase average, and of bins along trajectories.
 const POINTS: usize = 45;
 
-/// Number of disturbances, and their range in rad.
+/// Number of initial disturbances, and their range in rad.
 const RELEASES: usize = 49;
 const DISTURBANCES: [f64; 2] = [1e-4, 1.0];
 
-/// Time over which the background is looked at, s.
+/// Duration (s) of the motion from which the range of the other coordinates is taken.
 const BACKGROUND: f64 = 10.0;
 
-/// Levels of the relative error in the table.
+/// Levels of the relative error that the table lists.
 const LEVELS: [(&str, f64); 3] = [("1 %", 0.01), ("10 %", 0.1), ("100 %", 1.0)];
 
-/// Range of the relative error in the chart: below, nobody asks.
+/// Range of the relative error in the chart; smaller errors are irrelevant.
 const ERRORS: [f64; 2] = [1e-10, 1e1];
 
-/// Finds the errors and the costs and writes them.
+/// Computes the errors and costs of all forms and writes them.
 ///
 /// # Errors
-/// [`Failure::Truncation`]; [`Failure::Lacking`] for a start that moves.
+/// [`Failure::Truncation`]; [`Failure::Lacking`] if the start is not at rest.
 pub(super) fn run(
     arguments: &Arguments,
     job: &Job,
@@ -56,7 +57,7 @@ pub(super) fn run(
     let forms = TreeForms {
         tree: symmetric,
         motion: SymmetricCoordinates(&subject.tree),
-        forms: FORMS.iter().map(|(form, _)| *form).collect(),
+        forms: FORMS.to_vec(),
     };
     let mut release = vec![0.0; theta.len()];
     symmetric.symmetric_from_absolute(Normalisation::Plain, theta, &mut release);
@@ -100,12 +101,12 @@ pub(super) fn run(
     job.chart("transfer", &study.chart())
 }
 
-/// Errors and costs of the forms of W of one tree.
+/// Errors and costs of the forms of W, for one tree.
 struct AmplitudeStudy<'a> {
     arguments: &'a Arguments,
     /// Name of the tree.
     name: &'a str,
-    /// Of each receiver the phase average, and along motions.
+    /// For each receiving sector, the error curves of the phase average and along motions.
     curves: Vec<(ErrorCurve, ErrorCurve)>,
     costs: Costs,
 }
@@ -195,7 +196,7 @@ impl AmplitudeStudy<'_> {
             let amplitudes: Vec<f64> = curve.points.iter().map(|point| point.amplitude).collect();
             let forms = curve.forms.iter().zip(&self.costs.ratios).enumerate();
             forms.fold(Panel::new(axis), |panel, (form, (name, cost))| {
-                // What it costs stands beside what it is worth.
+                // Cost and error are in one table.
                 let label = format!("{name}, cost {cost:.1}");
                 panel.series(Series::line(label, &amplitudes, &curve.errors(form)))
             })

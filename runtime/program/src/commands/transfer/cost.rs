@@ -1,4 +1,4 @@
-//! The cost of one evaluation of W.
+//! Cost of one evaluation of the energy transfer W.
 
 use std::hint::black_box;
 use std::time::Instant;
@@ -6,25 +6,25 @@ use std::time::Instant;
 use branched_pendulum::analysis::truncation::{ComparedForms, PhaseAverage, TruncationError};
 use branched_pendulum::{Transfer, TransferForm};
 
-/// States in one pass: a pass takes long enough for the clock, and its states
-/// fit into the processor's second cache.
+/// Number of states evaluated in one pass. A pass takes long enough for the clock, and its states
+/// fit into the processor's second-level cache.
 const STATES: usize = 2048;
 
-/// Passes over the states; the median of their times is taken.
+/// Number of passes over the states, of whose times the median is taken.
 const REPEATS: usize = 51;
 
-/// Median times for W into all receivers from coordinates and momenta.
+/// Median times of evaluating W into all receivers from coordinates and momenta.
 pub(super) struct Costs {
-    /// Of the truncated forms, over that of the exact form.
+    /// Times of the truncated forms, divided by the time of the exact form.
     pub(super) ratios: Vec<f64>,
     /// Of the exact form, ns.
     pub(super) exact_ns: f64,
 }
 
 impl Costs {
-    /// Measures at random states, one after the other, so that the processor may
-    /// overlap them as it does in a table of samples. The forms take turns: a
-    /// change of the processor's clock then meets all of them.
+    /// Measures the times at random states, evaluated one after the other, so that the processor
+    /// can overlap them as it does for a table of samples. The forms are measured in turn, so that
+    /// a change of the processor's clock affects all of them.
     pub(super) fn measure(
         tree: &impl ComparedForms,
         average: &PhaseAverage,

@@ -114,7 +114,7 @@ fn cascades_stand_beside_their_equilibrium_and_each_other() {
         .unwrap();
     let stderr = String::from_utf8_lossy(&refused.stderr);
     assert!(
-        !refused.status.success() && stderr.contains("no difference in"),
+        !refused.status.success() && stderr.contains("no scale of differences in"),
         "{stderr}"
     );
     let missing = super::command(&["cascade", "--compare", "nowhere", "--output"])
@@ -126,6 +126,26 @@ fn cascades_stand_beside_their_equilibrium_and_each_other() {
         !missing.status.success() && stderr.contains("scales.csv"),
         "{stderr}"
     );
+}
+
+/// A lineage under white noise: its input is known beforehand, and friction takes it.
+#[test]
+fn a_lineage_under_noise_is_balanced() {
+    let folder = folder("lineage");
+    let line = "--generations 6 --open 1 --noise 0.003 --steps 1024 --samples 32 --starts 16 \
+                --duration 60 \
+                --set gravity=0,length_ratio=0.85,friction=0,sibling_friction=2e-4";
+    let more: Vec<&str> = line.split_whitespace().collect();
+    let output = command(&folder, &more).output().unwrap();
+    finished(&output);
+    let text = String::from_utf8(output.stdout).unwrap();
+    assert!(text.contains("21 links in 6 generations"), "{text}");
+    assert!(text.contains("white noise of 0.003 N² m² s"), "{text}");
+    assert!(text.contains(": balanced."), "{text}");
+    assert!(text.contains("Flatness of the amplitude"), "{text}");
+    let refused = command(&folder, &["--generations", "17"]).output().unwrap();
+    let stderr = String::from_utf8_lossy(&refused.stderr);
+    assert!(stderr.contains("at most 16 without `--open`"), "{stderr}");
 }
 
 /// Starts in lanes move as another method moves them one by one, under the torque written down
@@ -259,9 +279,9 @@ fn other_trees_are_followed_or_refused() {
     let line = "--set stiffness=4 --duration 20 --starts 4 --steps 256 --samples 16";
     let mut words = vec!["cascade", "--tree", &y];
     words.extend(line.split_whitespace());
-    let told = folder.answer(&words);
+    let reported = folder.answer(&words);
     let title = "y.txt: 3 links in 2 generations, 4 starts of 20.0 s each; torque 0.2 N m";
-    assert!(told.contains(title), "{told}");
+    assert!(reported.contains(title), "{reported}");
     let (names, rows) = folder.table("windows.csv");
     assert_eq!(names[6], "energy 1 [J]");
     assert_eq!((names.len(), rows.len()), (10, 4 * 12));
@@ -280,48 +300,52 @@ fn other_trees_are_followed_or_refused() {
         (
             UNEQUAL,
             "",
-            "`tree.txt` has no scales, since links of one generation differ",
+            "`tree.txt` has no scales, because links of one generation differ",
         ),
         (
             "gravity = 9.81, stem: rod(mass = 0.2, length = 0.3) [arm: rod(mass = 0.1, length = 0.2) * 2],
             guy(stem, at = 0.2, to = (0.4, 0), spring = 3)",
             "",
-            "`tree.txt` has no scales: the spring `guy(stem)` belongs to none",
+            "`tree.txt` has no scales, because the spring `guy(stem)` couples them",
         ),
         (own.as_str(), "--onset 1", "the tree has no copies"),
         (
             fork,
             "--torque 0.1",
-            "`tree.txt` has a drive of its own: leave `--torque`",
+            "`tree.txt` already has a drive: leave out `--torque`",
         ),
         (
             fork,
             "--bandwidth 0.1",
-            "`tree.txt` has a drive of its own: leave `--torque`",
+            "`tree.txt` already has a drive: leave out `--torque`",
         ),
     ] {
         let tree = folder.file("tree.txt", text);
         let mut words = vec!["cascade", "--tree", &tree];
         words.extend(more.split_whitespace());
         let output = folder.run(&words);
-        let told = super::text(&output.stderr);
-        assert_eq!(output.status.code(), Some(1), "{told}");
-        assert!(told.contains(message), "{told}");
+        let reported = super::text(&output.stderr);
+        assert_eq!(output.status.code(), Some(1), "{reported}");
+        assert!(reported.contains(message), "{reported}");
     }
     let tree = folder.file("tree.txt", fork);
-    let told = folder.answer(&["cascade", "--tree", &tree, "--onset", "1"]);
+    let reported = folder.answer(&["cascade", "--tree", &tree, "--onset", "1"]);
     assert!(
-        told.contains("no torque but that of the description"),
-        "{told}"
+        reported.contains("no torque but that of the description"),
+        "{reported}"
     );
-    assert!(told.contains("| `in_phase` | 2 |"), "{told}");
+    assert!(reported.contains("| `in_phase` | 2 |"), "{reported}");
 }
 
 #[test]
 fn mistakes_are_named() {
     for (line, message) in [
-        ("--generations 17", "17 is not in 2..=16"),
-        ("--generations 3 --tree paper", "leave them or `--tree` out"),
+        ("--generations 17", "must be at most 16 without `--open`"),
+        ("--generations 33", "33 is not in 2..=32"),
+        (
+            "--generations 3 --tree paper",
+            "leave out either them or `--tree`",
+        ),
         ("--torque NaN", "must be from 0 to 100 N m"),
         ("--bandwidth 1", "at most 0.9 of the frequency"),
         (
@@ -331,7 +355,7 @@ fn mistakes_are_named() {
         ("--shard 3/3", "must be I/N"),
         ("--shard 0/3 --merge 3", "cannot be used with"),
     ] {
-        let told = parse_line::<Arguments>(line).unwrap_err();
-        assert!(told.contains(message), "{line}: {told}");
+        let reported = parse_line::<Arguments>(line).unwrap_err();
+        assert!(reported.contains(message), "{line}: {reported}");
     }
 }

@@ -60,24 +60,77 @@ fn a_checkpoint_of_another_run_is_refused() {
     }
     child.kill().unwrap();
     child.wait().unwrap();
-    let refused = |more: &[&str], told: &str| {
+    let refused = |more: &[&str], reported: &str| {
         let output = command(&folder, more).output().unwrap();
         let stderr = String::from_utf8(output.stderr).unwrap();
         assert_eq!(output.status.code(), Some(1), "{stderr}");
         assert!(
-            stderr.contains("cannot go on from") && stderr.contains(told),
+            stderr.contains("cannot resume from") && stderr.contains(reported),
             "{stderr}"
         );
     };
     refused(
         &["--duration", "100000", "--seed", "2"],
-        "it is of branched-pendulum cascade",
+        "the file belongs to another run: branched-pendulum cascade",
     );
     let mut bytes = fs::read(&checkpoint).unwrap();
     let middle = bytes.len() / 2;
     bytes[middle] ^= 1;
     fs::write(&checkpoint, bytes).unwrap();
     refused(&["--duration", "100000"], "damaged");
+}
+
+/// A tree is edited while its run is dead: the run does not go on with the other tree.
+#[test]
+fn a_checkpoint_of_another_tree_is_refused() {
+    let folder = folder("edited");
+    fs::create_dir_all(&folder).unwrap();
+    let tree = folder.join("tree.txt");
+    let description = |mass: &str| {
+        format!(
+            "gravity = 9.81,\narm: generations(count = 3, branching = 2, shape = rod, mass = {mass},\n    \
+             length = 0.3, mass_ratio = 0.5, length_ratio = 0.7, friction = 1e-4)\n"
+        )
+    };
+    fs::write(&tree, description("0.12")).unwrap();
+    let results = folder.join("results");
+    let tree = tree.to_str().unwrap().to_owned();
+    let run = || {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_branched-pendulum"));
+        command.args([
+            "cascade",
+            "--tree",
+            &tree,
+            "--starts",
+            "4",
+            "--threads",
+            "1",
+        ]);
+        command.args(["--duration", "100000", "--checkpoint", "0", "--output"]);
+        command
+            .arg(&results)
+            .stdout(Stdio::null())
+            .stderr(Stdio::piped());
+        command
+    };
+    let mut child = run().spawn().unwrap();
+    let checkpoint = results.join("checkpoint");
+    while !checkpoint.exists() {
+        assert!(child.try_wait().unwrap().is_none());
+        std::thread::sleep(Duration::from_millis(20));
+    }
+    child.kill().unwrap();
+    child.wait().unwrap();
+    for mass in ["0.5", "0.1", "0.121"] {
+        fs::write(&tree, description(mass)).unwrap();
+        let output = run().output().unwrap();
+        let errors = text(&output.stderr);
+        assert_eq!(output.status.code(), Some(1), "{errors}");
+        assert!(
+            errors.contains("tree.txt` has changed: line 2 was `arm: "),
+            "{errors}"
+        );
+    }
 }
 
 /// What 64 shards are cut from.
@@ -144,8 +197,8 @@ fn shards(name: &str, count: u32, starts: &[&str]) {
         .exists()
     {
         let refused = merge();
-        let told = format!("1 of {count} shards are not finished: {killed}");
-        assert!(text(&refused.stderr).contains(&told));
+        let reported = format!("1 of {count} shards are not finished: {killed}");
+        assert!(text(&refused.stderr).contains(&reported));
     }
     finished(&shard(killed).output().unwrap());
     // What is there is not computed again.

@@ -7,15 +7,19 @@ from ._common import Result
 from ._growth import Growth, ReleaseMap
 from ._identification import Estimate, FittedFrequency, Identification
 from ._motion import Report, Solution
+from ._rest import Equilibrium
+from ._theory import Prediction
 from ._work_precision import WorkPrecision
 
 __all__ = [
     "Advice",
+    "Equilibrium",
     "Estimate",
     "FittedFrequency",
     "Growth",
     "Identification",
     "MeasuredRun",
+    "Prediction",
     "ReleaseMap",
     "Report",
     "Result",

@@ -3,12 +3,31 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Literal, TypedDict
 
 from ._common import Result
 
 if TYPE_CHECKING:
     import pandas as pd
+
+
+class Arguments(TypedDict, total=False):
+    """Arguments of `tree.integrate` and `tree.ensemble` that make a run."""
+
+    method: Literal[
+        "dop853", "dopri5", "verner98", "taylor", "rk4", "gauss2", "gauss4", "gauss6", "gauss8"
+    ]
+    rtol: float
+    step: float
+
+
+class Output(TypedDict):
+    """An output of which errors are measured."""
+
+    unit: str
+    tolerance: float
+    reference_error: float
+    known_until: float | None
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -59,7 +78,7 @@ class MeasuredRun(Result):
     seconds_per_sample: float
     steps: float
     failure: str | None
-    arguments: dict[str, Any] | None
+    arguments: Arguments | None
     words: str
     evidence: str
 
@@ -107,13 +126,13 @@ class Advice(Result):
     closest: MeasuredRun | None
     ranking: list[MeasuredRun]
     runs: list[MeasuredRun]
-    outputs: dict[str, dict[str, Any]]
+    outputs: dict[str, Output]
     reference: str
     growth: float | None
     words: str
 
     @property
-    def arguments(self) -> dict[str, Any]:
+    def arguments(self) -> Arguments:
         """Arguments of `tree.integrate` for the cheapest right run that it makes.
 
         The choice itself may be one that the package has not: the linear model, single precision,
@@ -122,7 +141,7 @@ class Advice(Result):
         if self.choice is not None:
             for run in self.ranking:
                 if run.is_right and run.arguments is not None and not run.in_lanes:
-                    return dict(run.arguments)
+                    return run.arguments.copy()
         raise ValueError("no method of `integrate` is right within the limits")
 
     def frame(self) -> pd.DataFrame:

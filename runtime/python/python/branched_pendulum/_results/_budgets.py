@@ -43,7 +43,8 @@ class ScaleBudget(Result):
     @property
     def received(self) -> Array:
         """What each scale receives from all others, W, shape (..., s)."""
-        return self.transfers.sum(axis=-2)
+        received: Array = self.transfers.sum(axis=-2)
+        return received
 
     @property
     def power(self) -> Array:

@@ -20,6 +20,8 @@ if TYPE_CHECKING:
 class Report(Result):
     """The account of a run; `str` of it says it in words."""
 
+    #: Name of the integration method.
+    method: str
     #: Steps that were accepted, and tried in vain.
     accepted: int
     rejected: int
@@ -31,6 +33,12 @@ class Report(Result):
     #: Why the run stopped: "end reached", "stopped at an event", ...
     stop: str
     words: str = field(repr=False)
+    #: Error of angles (rad) up to which the motion was compared with a second run: the argument
+    #: of `integrate`.
+    precision: float | None = None
+    #: First time (s) at which the second run differs by more; None if it does not, or was not
+    #: asked for.
+    differs_from: float | None = None
 
     def __str__(self) -> str:
         return self.words

@@ -15,10 +15,9 @@ use crate::scalar::Scalar;
 pub struct DormandPrince8;
 
 impl EmbeddedPair for DormandPrince8 {
-    /// As in the authors' program, but for the safety factor, which is 0.9
-    /// there. With 0.8 the paper's pendulum in regular motion takes as many
-    /// evaluations, has fewer steps rejected and ends with half the error, at
-    /// tolerances from 1e-7 to 1e-13.
+    /// Constants of the authors' program, except for the safety factor (0.9 there). With 0.8 the
+    /// paper's pendulum in regular motion takes the same number of evaluations, has fewer rejected
+    /// steps and half the error, at tolerances from 1e-7 to 1e-13.
     const CONTROL: ControlConstants = ControlConstants {
         order: tables::ORDER,
         safety: 0.8,
@@ -34,8 +33,8 @@ impl EmbeddedPair for DormandPrince8 {
     const DENSE: DenseForm = DenseForm::Alternating(&[&D[0], &D[1], &D[2], &D[3]]);
     const ERROR_USES_END: bool = false;
 
-    /// Combined from the estimates of order 5 and 3 (Solving ODEs I, section
-    /// II.10, eq. (10.17)).
+    /// Returns the scaled error of a step, from the estimates of orders 5 and 3 (Solving ODEs I,
+    /// section II.10, eq. (10.17)).
     #[inline(always)]
     fn error<W: Scalar, S: ErrorScale<W>>(stages: &StepStages<W>, system: &S, size: W) -> W {
         let [fifth, third] = stages.squares(system, [&E_FIFTH, &B_MINUS_THIRD]);
@@ -45,5 +44,5 @@ impl EmbeddedPair for DormandPrince8 {
     }
 }
 
-/// Weights of the solution of order 8 minus those of the one of order 3.
+/// Weights of the solution of order 8 minus those of the solution of order 3.
 const B_MINUS_THIRD: TableRow<8> = difference(&B, &B_THIRD);

@@ -13,13 +13,11 @@
 
 use crate::integrate::explicit::pair::TableRow;
 
-/// Order of the solution that is continued.
+/// Order of the solution from which the next step starts.
 pub(super) const ORDER: u32 = 8;
-/// Stages of a step without dense output, the first shared with the step
-/// before.
+/// Number of stages of a step without dense output. The first is shared with the step before.
 pub(super) const STAGES: usize = 12;
-/// All stages: those of the step, the rates at its end, three for the dense
-/// output.
+/// Number of all stages: the step, the rates at its end, and three for the dense output.
 pub(super) const STAGES_DENSE: usize = 16;
 
 /// Nodes c of the stages, as fractions of the step.
@@ -132,8 +130,7 @@ pub(super) const B_THIRD: TableRow<3> = [
     (12, 0.220588235294117647058823529412e-01),
 ];
 
-/// Weights of the solution of order 8 minus those of the embedded one of
-/// order 5.
+/// Weights of the solution of order 8 minus those of the embedded solution of order 5.
 pub(super) const E_FIFTH: TableRow<8> = [
     (1, 0.1312004499419488073250102996e-01),
     (6, -0.1225156446376204440720569753e+01),
@@ -244,13 +241,14 @@ mod tests {
     use crate::integrate::explicit::dop853::DormandPrince8;
     use crate::integrate::explicit::order_conditions::ButcherTable;
 
-    /// All rows of the stages' table, in order; stage 13 repeats the weights.
+    /// Returns all rows of the table of stages, in order. The row of stage 13 is the weights of the
+    /// solution.
     fn rows() -> Vec<&'static [(usize, f64)]> {
         ButcherTable::of::<DormandPrince8>().rows
     }
 
-    /// Sum over a row of coefficient times `value(stage)`, and the sum of the
-    /// magnitudes, which bounds the rounding.
+    /// Returns the sum over a row of coefficient times `value(stage)`, and the sum of the
+    /// magnitudes, which bounds the rounding error.
     fn dot(row: &[(usize, f64)], value: impl Fn(usize) -> f64) -> (f64, f64) {
         row.iter()
             .fold((0.0, 0.0), |(sum, size), &(stage, coefficient)| {
@@ -292,15 +290,15 @@ mod tests {
         for power in 0..8 {
             assert_condition(&B, |j| C[j - 1].powi(power), 1.0 / f64::from(power + 1));
         }
-        // Not of order 9: the condition must be able to fail.
+        // The method is not of order 9; so this condition can fail.
         let (ninth, _) = dot(&B, |j| C[j - 1].powi(8));
         assert!((ninth - 1.0 / 9.0).abs() > 1e-6);
     }
 
     #[test]
     fn nested_conditions_of_order_eight() {
-        // Trees that the quadrature conditions do not see: b c^k A c^m and
-        // b c^k A A c^m, up to order 8.
+        // Rooted trees beyond the quadrature conditions: b c^k A c^m and b c^k A A c^m, up to order
+        // 8.
         let inner = |m: i32| move |j: usize| dot(rows()[j - 1], |l| C[l - 1].powi(m)).0;
         let twice = |m: i32| move |j: usize| dot(rows()[j - 1], inner(m)).0;
         let thrice = |m: i32| move |j: usize| dot(rows()[j - 1], twice(m)).0;

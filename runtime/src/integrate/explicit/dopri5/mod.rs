@@ -12,14 +12,14 @@ use crate::scalar::Scalar;
 #[derive(Clone, Copy, Debug)]
 pub struct DormandPrince5;
 
-/// The estimate belongs to the formula of order 4 and is far larger than the
-/// error that is made, but steps are many, and what they make adds up: over ten
-/// seconds to some 160 times the tolerance, where the pairs of order 8 and 9
-/// stay near it. Counting the estimate so many times brings the three together.
+/// Factor on the error estimate. The estimate is the error of the formula of order 4, which is much
+/// larger than the actual error of one step, but the errors of many steps add up: over ten seconds
+/// to some 160 times the tolerance, whereas the pairs of orders 8 and 9 stay near the tolerance.
+/// With this factor the three pairs have similar errors at equal tolerance.
 const ESTIMATE_WEIGHT: f64 = 20.0;
 
 impl EmbeddedPair for DormandPrince5 {
-    /// As in the authors' program; the error that they act on is not.
+    /// Constants of the authors' program; only the error estimate is weighted differently.
     const CONTROL: ControlConstants = ControlConstants {
         order: tables::ORDER,
         safety: 0.9,
@@ -69,7 +69,7 @@ mod tests {
         continuous(&values, 4, |s, weights| {
             let r = 1.0 - s;
             for &(stage, weight) in &B {
-                // Δy with its factors in d₁ = h k₁ − Δy, d₂ = Δy − h k₇ − d₁.
+                // Coefficient of Δy in d₁ = h k₁ − Δy and d₂ = Δy − h k₇ − d₁.
                 weights.add(stage, weight * (s - s * r + 2.0 * s * s * r));
             }
             weights.add(1, s * r - s * s * r);

@@ -7,11 +7,11 @@
 
 use crate::integrate::explicit::pair::TableRow;
 
-/// Order of the solution that is continued.
+/// Order of the solution from which the next step starts.
 pub(super) const ORDER: u32 = 5;
-/// Stages of a step, the first shared with the step before.
+/// Number of stages of a step. The first is shared with the step before.
 pub(super) const STAGES: usize = 6;
-/// All stages: those of the step, and the rates at its end.
+/// Number of all stages: the step, and the rates at its end.
 pub(super) const STAGES_DENSE: usize = 7;
 
 /// Nodes c of the stages, as fractions of the step.
@@ -43,8 +43,7 @@ pub(super) const B: TableRow<5> = [
     (6, 11.0 / 84.0),
 ];
 
-/// Weights of the solution of order 5 minus those of the embedded one of
-/// order 4.
+/// Weights of the solution of order 5 minus those of the embedded solution of order 4.
 pub(super) const E: TableRow<6> = [
     (1, 71.0 / 57600.0),
     (3, -71.0 / 16695.0),

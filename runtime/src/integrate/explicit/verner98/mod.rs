@@ -38,7 +38,7 @@ impl EmbeddedPair for Verner9 {
     }
 }
 
-/// Weights of the solution of order 9 minus those of the one of order 8.
+/// Weights of the solution of order 9 minus those of the solution of order 8.
 const B_MINUS_EIGHTH: TableRow<10> = difference(&B, &B_EIGHTH);
 
 #[cfg(test)]

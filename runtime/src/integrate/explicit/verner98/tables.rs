@@ -10,11 +10,11 @@
 
 use crate::integrate::explicit::pair::TableRow;
 
-/// Order of the solution that is continued.
+/// Order of the solution from which the next step starts.
 pub(super) const ORDER: u32 = 9;
-/// Stages of a step, the first shared with the step before.
+/// Number of stages of a step. The first is shared with the step before.
 pub(super) const STAGES: usize = 16;
-/// All stages: those of the step, the rates at its end, four for the dense
+/// Number of all stages: 16 of the step, one for the rates at its end, and four for the dense
 /// output.
 pub(super) const STAGES_DENSE: usize = 21;
 /// Degree of the dense output.
@@ -224,11 +224,10 @@ pub(super) const A21: TableRow<13> = [
     (20, -0.2795650792912341),
 ];
 
-/// Bernstein coefficients 2 to 6 of the dense output, which is a polynomial of
-/// degree 8. The first and the last two follow from the ends of the step and
-/// the rates there. The source gives powers of the fraction, whose coefficients
-/// reach 1e5 and cancel; these, found from them by solving the order conditions
-/// in 40 digits, stay below 100 and lose no digits.
+/// Bernstein coefficients 2 to 6 of the dense output, a polynomial of degree 8. The first and the
+/// last two follow from the ends of the step and the rates there. The source gives coefficients of
+/// powers, which reach 1e5 and cancel. The coefficients here were computed from them by solving the
+/// order conditions in 40 digits. They stay below 100 and lose no digits.
 pub(super) const D: [TableRow<14>; DEGREE - 3] = [
     [
         (1, -0.14318472403950133),

@@ -1,4 +1,4 @@
-//! How far the iteration of one lane has come.
+//! Convergence of the iteration that solves the equations of an implicit step, in one lane.
 
 use alloc::vec;
 use alloc::vec::Vec;
@@ -9,45 +9,47 @@ use crate::integrate::fixed::linear::Factored;
 use crate::integrate::steps::Failure;
 use crate::scalar::Real;
 
-/// Below this, in units of rounding, a change that does not fall is rounding.
+/// Largest change (in units of the rounding error) that counts as convergence once the changes no
+/// longer decrease.
 const ROUNDING: f64 = 1e2;
 
-/// Below this, a change that has not fallen for two rounds is rounding too.
+/// Largest change, in units of rounding, that counts as rounding if it has not decreased for two
+/// iterations.
 const NOISE: f64 = 1e4;
 
-/// A fixed point that comes no nearer in more rounds than these is none.
+/// Number of iterations without progress after which a fixed-point iteration has failed.
 const PATIENCE: u32 = 3;
 
-/// Rates that are not finite after a relative change above this are those of an
-/// iterate that ran away.
+/// Relative change above which rates that are not finite mean that the iteration has diverged; the
+/// equations are then not at fault.
 const RUNAWAY: f64 = 1e-3;
 
-/// A matrix of derivatives that took more rounds than this is made anew.
+/// Number of iterations after which the matrix of derivatives is computed again.
 const STALE: u32 = 8;
 
-/// What one lane has of its own: how far its iteration has come, and the matrix of Newton's
-/// method.
+/// Iteration in one lane: its convergence, and the matrix of Newton's method.
 #[derive(Clone, Debug)]
 pub(super) struct LaneIteration<T> {
-    /// True while the iteration goes on.
+    /// True while the iteration continues.
     pub(super) goes_on: bool,
-    /// Why it has ended without an answer.
+    /// Reason why the iteration ended without a solution.
     pub(super) failure: Option<Failure<T>>,
-    /// Evaluations of the step.
+    /// Number of evaluations of the right-hand side in the step.
     pub(super) evaluations: u64,
-    /// The smallest change so far, the last one, and the rounds in which it did not fall.
+    /// Smallest change so far, last change, and number of iterations in which the change did not
+    /// decrease.
     pub(super) best: T,
     last: T,
     without_progress: u32,
-    /// Matrix of Newton's method and the step that it was made for.
+    /// Matrix of Newton's method, and the step length for which it was computed.
     pub(super) newton: Factored<T>,
     pub(super) newton_step: T,
-    /// Right-hand side of its equations.
+    /// Right-hand side of the equations of Newton's method.
     pub(super) right: Vec<T>,
 }
 
 impl<T: Real> LaneIteration<T> {
-    /// Room for Newton's method with `size` unknowns.
+    /// Allocates the memory for Newton's method with `size` unknowns.
     pub(super) fn new(size: usize) -> Self {
         Self {
             goes_on: false,
@@ -68,7 +70,7 @@ impl<T: Real> LaneIteration<T> {
         (self.best, self.last, self.without_progress) = (infinite, infinite, 0);
     }
 
-    /// Ends without an answer.
+    /// Ends the iteration without a solution.
     fn fail(&mut self, failure: Failure<T>) {
         self.newton_step = T::ZERO;
         self.goes_on = false;
@@ -84,9 +86,10 @@ impl<T: Real> LaneIteration<T> {
         });
     }
 
-    /// Ends because rates are not finite, in a round of the iteration or before the first.
+    /// Ends the iteration because rates are not finite, in iteration number `round` (0: before the
+    /// first).
     pub(super) fn stumble(&mut self, step: T, round: u32, place: NonFinite<T>) {
-        // An iterate that ran away says nothing about the equations.
+        // An iterate that diverged does not show that the equations have no finite rates.
         if round > 0 && self.last > T::from_f64(RUNAWAY) {
             self.give_up(step, round, self.last);
         } else {
@@ -94,7 +97,8 @@ impl<T: Real> LaneIteration<T> {
         }
     }
 
-    /// Judges the change of a round: ends where it is zero or rounding, or falls no more.
+    /// Ends the iteration if the change in this iteration is zero or rounding, or has stopped
+    /// decreasing.
     pub(super) fn judge(&mut self, step: T, round: u32, change: T, tolerance: T) {
         self.last = change;
         if change < self.best {
@@ -105,8 +109,8 @@ impl<T: Real> LaneIteration<T> {
         }
         let rounding = T::from_f64(ROUNDING) * T::EPSILON;
         let noise = T::from_f64(NOISE) * T::EPSILON;
-        // Where the change no longer falls, rounding is all that is left.
-        // It may fall in every second round only.
+        // If the change has stopped falling, only rounding is left. It may fall in every second
+        // round only.
         let settled = change <= tolerance
             || (self.without_progress == 1 && change <= rounding)
             || (self.without_progress > 1 && change <= noise);
@@ -120,7 +124,7 @@ impl<T: Real> LaneIteration<T> {
         }
     }
 
-    /// Saves or restores what later steps depend on.
+    /// Saves or restores the numbers on which later steps depend.
     pub(super) fn remember(&mut self, memory: &mut Memory<T>) {
         self.newton.remember(memory);
         memory.number(&mut self.newton_step);

@@ -1,4 +1,4 @@
-//! The symplectic, symmetric Gauss–Legendre methods.
+//! Symplectic, symmetric Gauss–Legendre methods.
 
 mod iteration;
 mod solve;
@@ -6,62 +6,57 @@ mod step;
 
 pub(super) use self::step::GaussStep;
 use super::grid::GridSteps;
-use super::place::Grid;
+use super::grid_position::Grid;
 use crate::integrate::error::InputError;
 use crate::integrate::integrator::Integrator;
 use crate::integrate::piece::GaussOrder;
 use crate::scalar::Real;
 use crate::system::{Ode, State};
 
-/// The iteration that solves the equations of a step.
+/// Iteration that solves the implicit equations of a step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Solver {
-    /// Fixed-point iteration: no derivatives, cheap, and converges where the
-    /// step is short beside the shortest time scale of the system.
+    /// Fixed-point iteration: cheap and without derivatives. It converges if the step is short
+    /// compared with the shortest time scale of the system.
     FixedPoint,
-    /// Newton's method with one matrix of derivatives, by differences, for as
-    /// many steps as it serves: for stiff friction and long steps. The
-    /// derivatives decide how fast it converges, never where to.
+    /// Newton's method, for stiff friction and long steps. The matrix of derivatives is computed by
+    /// differences and used for as many steps as possible. Its accuracy affects only the speed of
+    /// convergence, not the solution.
     Newton,
 }
 
-/// The Gauss–Legendre methods of order 2, 4, 6 and 8, with steps of one
-/// length: symmetric, and symplectic where the state is canonical.
+/// Gauss–Legendre methods of order 2, 4, 6 and 8 with steps of constant length: symmetric, and
+/// symplectic if the state is canonical.
 ///
-/// With coordinates and momenta as state ([`Canonical`]) the energy of a
-/// conservative system does not drift, however long the run: its error stays
-/// that of one step, plus a random walk of rounding. With angles and
-/// velocities as state the methods are symmetric only, which for reversible
-/// motion does nearly as well.
+/// If the state consists of coordinates and momenta ([`Canonical`]), the energy of a conservative
+/// system does not drift: even in a long run its error stays that of one step, plus a random walk
+/// of rounding. If it consists of angles and velocities, the methods are only symmetric, which for
+/// reversible motion does nearly as well.
 ///
-/// Kick-drift splittings (leapfrog, Störmer–Verlet, Yoshida) would be explicit,
-/// but need a kinetic energy of the momenta alone, and that of links that hang from
-/// other links depends on the angles, H ≠ T(p) + U(q). A splitting would be neither
-/// symplectic nor of its order then, and there is none here.
+/// Explicit kick-drift splittings (leapfrog, Störmer–Verlet, Yoshida) do not apply: they need a
+/// kinetic energy that depends on the momenta alone, H = T(p) + U(q). The kinetic energy of links
+/// that hang from other links depends on the angles.
 ///
-/// [`Projected`] keeps the energy to rounding at every step, at the price of
-/// both properties.
+/// [`Projected`] keeps the energy to rounding at every step, but is neither symmetric nor
+/// symplectic.
 ///
-/// The equations of a step are iterated until rounding stops them, sums are
-/// compensated and coefficients carry more digits than one number holds: that
-/// keeps rounding from adding up to a drift. A step that cannot be solved is
-/// made in halves, at most [`halvings`](Self::halvings) times, and then the run
-/// ends with [`IntegrationError::NotSolved`]. Halved steps cost the symplectic
-/// property; [`Report::rejected`] counts them.
+/// The equations of a step are iterated until rounding stops the progress, sums are compensated,
+/// and coefficients have more digits than one number holds. So rounding does not add up to a drift.
+/// A step that cannot be solved is divided into halves, at most [`halvings`](Self::halvings) times;
+/// then the run ends with [`IntegrationError::NotSolved`]. Halved steps are not symplectic;
+/// [`Report::rejected`] counts them.
 ///
-/// Values inside a step are those of the collocation polynomial, whose order
-/// is the number of stages, half the order at the ends. Memory: 3 s + 7 vectors
-/// of the state's length n for s stages; with Newton's method two matrices of
-/// s²n² and n² entries more. Steps allocate nothing.
+/// Values within a step are those of the collocation polynomial, whose order is the number of
+/// stages, half the order at the ends. Memory: 3 s + 7 vectors of the state's length n for s
+/// stages; with Newton's method also two matrices of s²n² and n² entries. Steps allocate nothing.
 ///
-/// In lanes ([`Ensemble::integrate_in_lanes`]) each state has the bits that it has alone; the
-/// iteration goes on until the last lane is solved.
+/// In lanes ([`Ensemble::integrate_in_lanes`]) each state has the bits of a run by itself. The
+/// iteration continues until all lanes are solved.
 ///
-/// Source: Hairer, Lubich, Wanner, *Geometric Numerical Integration*, 2nd
-/// edition, Springer 2006, sections II.1.3, VI.4 and VIII.6; Hairer, McLachlan,
-/// Razakarivony, *Achieving Brouwer's law with implicit Runge–Kutta methods*,
-/// BIT 48 (2008) 231–243.
+/// Source: Hairer, Lubich, Wanner, *Geometric Numerical Integration*, 2nd edition, Springer 2006,
+/// sections II.1.3, VI.4 and VIII.6; Hairer, McLachlan, Razakarivony, *Achieving Brouwer's law with
+/// implicit Runge–Kutta methods*, BIT 48 (2008) 231–243.
 ///
 /// [`Canonical`]: crate::system::Canonical
 /// [`Ensemble::integrate_in_lanes`]: crate::ensemble::Ensemble::integrate_in_lanes
@@ -96,28 +91,26 @@ pub enum Solver {
 pub struct Gauss<T> {
     /// Order of the method.
     pub order: GaussOrder,
-    /// Length of the steps, positive whatever the direction. The last one is
-    /// shorter where the span is no multiple of it.
+    /// Length of the steps, positive for both directions. The last step is shorter if the span is
+    /// not a multiple of it.
     pub step: T,
-    /// The iteration that solves the equations of a step.
+    /// Iteration that solves the implicit equations of a step.
     pub solver: Solver,
-    /// Largest change in an iteration, relative to the size of its component,
-    /// with which a step counts as solved. Zero iterates until rounding, as the
-    /// energy over long times needs it.
+    /// Largest change in an iteration, relative to the size of the component, at which a step
+    /// counts as solved. If zero, the iteration continues down to rounding, as is necessary for the
+    /// energy over long times.
     pub tolerance: T,
-    /// Iterations after which a step counts as not solved.
+    /// Number of iterations after which a step counts as not solved.
     pub iteration_limit: u32,
     /// Number of times that a step may be halved before the run ends with an error.
     pub halvings: u32,
-    /// Number of steps, made and failed together, after which a run ends with
-    /// an error.
+    /// Number of steps, completed and failed, after which a run ends with an error.
     pub step_limit: u64,
 }
 
 impl<T: Real> Gauss<T> {
-    /// The method of order `order` with steps of length `step`: fixed-point
-    /// iteration of at most 50 rounds, at most 10 halvings, no limit on the
-    /// number of steps.
+    /// Creates the method of order `order` with steps of length `step`. Defaults: fixed-point
+    /// iteration with at most 50 iterations, at most 10 halvings, no limit on the number of steps.
     pub fn new(order: GaussOrder, step: T) -> Self {
         Self {
             order,
@@ -130,15 +123,14 @@ impl<T: Real> Gauss<T> {
         }
     }
 
-    /// The implicit midpoint rule for steps as long as a frame of an animation:
-    /// Newton's method, ended at a change of [`Real::EPSILON`]^¾.
+    /// Creates the implicit midpoint rule for steps as long as a frame of an animation: Newton's
+    /// method, ended at a relative change of [`Real::EPSILON`]^¾.
     ///
-    /// No accuracy beyond the eye's, but no instability: the amplitude of a
-    /// linear oscillation stays what it is at any length of step, friction is
-    /// stable at any strength, and the energy of a conservative motion swings
-    /// about its value: by 1.5 % for the paper's pendulum, released from 86°, in
-    /// ten minutes of 60 steps a second, by 2 % in `f32`. There a step takes ten
-    /// evaluations, five in `f32`.
+    /// The accuracy suffices only for looking at the motion, but the method is stable: the
+    /// amplitude of a linear oscillation is constant for any length of step, friction of any
+    /// strength is stable, and the energy of a conservative motion oscillates about its value, by
+    /// 1.5 % (2 % in `f32`) for the paper's pendulum, released from 86°, in ten minutes of 60 steps
+    /// a second. A step takes ten evaluations there, five in `f32`.
     ///
     /// Source: Hairer, Wanner, *Solving ODEs II*, section IV.12 (B-stability).
     pub fn for_animation(step: T) -> Self {

@@ -1,6 +1,7 @@
-//! Solving for the rates of the stages: K_i = f(t + c_i h, y + h Σ_j a_ij K_j).
+//! Iterative solution of the equations of the stages, K_i = f(t + c_i h, y + h Σ_j a_ij K_j), with
+//! step length h and coefficients a, c.
 
-// One index into all lanes at once.
+// One index runs through the arrays of all lanes.
 #![allow(clippy::needless_range_loop)]
 
 use super::Solver;
@@ -13,8 +14,8 @@ use crate::scalar::{Real, Scalar};
 use crate::simd::Simd;
 
 impl<T: Real, R: Simd<T>> GaussStep<T, R> {
-    /// Iterates the rates of the stages, from their increments in place, until
-    /// the change is zero or rounding in each lane of `sought`: lanes that are done keep their
+    /// Solves for the rates of the stages by iteration, starting from the present increments, until
+    /// the change is zero or rounding in each lane of `sought`. Lanes that have finished keep their
     /// rates.
     #[inline(always)]
     pub(super) fn solve<S: RightHandSide<R>>(
@@ -59,13 +60,13 @@ impl<T: Real, R: Simd<T>> GaussStep<T, R> {
         iterations.iter().any(|iteration| iteration.goes_on)
     }
 
-    /// The lanes whose iteration goes on.
+    /// Returns the lanes in which the iteration continues.
     #[inline(always)]
     fn going(&self) -> R::Mask {
         R::mask(|lane| self.iterations[lane].goes_on)
     }
 
-    /// h Σ_j a_ij K_j, and the residue of the start.
+    /// Computes the increments h Σ_j a_ij K_j of the stages, plus the rounding error of the start.
     #[inline(always)]
     fn increments(&mut self, step: R) {
         let (n, s) = (self.start.len(), self.table.nodes.len());
@@ -82,8 +83,8 @@ impl<T: Real, R: Simd<T>> GaussStep<T, R> {
         }
     }
 
-    /// Rates at the stages' states, into `change`. Lanes in which they are not finite end
-    /// there.
+    /// Evaluates the rates at the states of the stages and writes them to `change`. In lanes with
+    /// rates that are not finite, the iteration ends.
     #[inline(always)]
     fn evaluate<S: RightHandSide<R>>(&mut self, system: &mut S, span: StepSpan<R>, round: u32) {
         let n = self.start.len();
@@ -96,7 +97,7 @@ impl<T: Real, R: Simd<T>> GaussStep<T, R> {
             system.write(time, &self.stage, rates);
             let finite = check_finite(R::from_f64(0.0), rates).to_chunk();
             let mut failed = false;
-            // As many as the compiler knows.
+            // A length that the compiler knows.
             let iterations = &mut self.iterations[..R::LANES];
             for (iteration, finite) in iterations.iter_mut().zip(finite.as_ref()) {
                 iteration.evaluations += u64::from(iteration.goes_on);
@@ -111,7 +112,8 @@ impl<T: Real, R: Simd<T>> GaussStep<T, R> {
         }
     }
 
-    /// Ends the lanes in which the rates of a stage, at the time of `span`, are not finite.
+    /// Ends the iteration of the lanes in which the rates of a stage, at the time of `span`, are
+    /// not finite.
     #[cold]
     fn stumble(&mut self, span: StepSpan<R>, round: u32, finite: &[T]) {
         for (lane, iteration) in self.iterations.iter_mut().enumerate() {
@@ -125,7 +127,7 @@ impl<T: Real, R: Simd<T>> GaussStep<T, R> {
         }
     }
 
-    /// Moves the rates to the new ones in `change`, in lanes that go on; returns the largest
+    /// Replaces the rates by the new ones in `change`, in lanes that continue. Returns the largest
     /// change of an increment, relative to the size of its component.
     #[inline(always)]
     fn update(&mut self, step: R) -> R {
@@ -146,7 +148,7 @@ impl<T: Real, R: Simd<T>> GaussStep<T, R> {
         largest
     }
 
-    /// Solves the equations of Newton's method for the changes, lane by lane.
+    /// Solves the linear equations of Newton's method for the changes, lane by lane.
     #[inline(always)]
     fn newton(&mut self) {
         for (lane, iteration) in self.iterations.iter_mut().enumerate() {
@@ -164,8 +166,8 @@ impl<T: Real, R: Simd<T>> GaussStep<T, R> {
         }
     }
 
-    /// Derivatives of the rates in the middle of the step, by differences, and
-    /// the matrix 1 − h a ⊗ ∂f/∂y of Newton's method, in lanes whose matrix is of another
+    /// Computes, in lanes whose matrix is for another step length, the matrix 1 − h a ⊗ ∂f/∂y of
+    /// Newton's method. The derivatives ∂f/∂y of the rates are differences in the middle of the
     /// step.
     #[inline(always)]
     fn differentiate<S: RightHandSide<R>>(&mut self, system: &mut S, span: StepSpan<R>) {
@@ -188,7 +190,7 @@ impl<T: Real, R: Simd<T>> GaussStep<T, R> {
             let shifted = value + root * (one + value.larger_size(zero));
             let difference = shifted - value;
             self.stage[column] = shifted;
-            // Into the first rows of `increments`, which are made anew later.
+            // The first rows of `increments` serve as memory; they are computed again later.
             let rates = &mut self.increments[..n];
             system.write(middle, &self.stage, rates);
             for (row, (&rate, &other)) in rates.iter().zip(&self.other).enumerate() {

@@ -1,8 +1,8 @@
-//! The vectors that a step works on, and what is done with them.
+//! Workspace of a Gauss step, and the parts of the computation of a step.
 
-// A sealed trait names the type.
+// The type is public because a sealed trait mentions it.
 #![allow(unreachable_pub)]
-// One index into all components at once.
+// One index runs through several vectors at once.
 #![allow(clippy::needless_range_loop)]
 
 use alloc::vec;
@@ -22,8 +22,8 @@ use crate::scalar::{Real, two_sum};
 use crate::simd::Simd;
 use crate::system::Ode;
 
-/// A Gauss method at work: on one state, which is a register of one lane, or on one in each
-/// lane of a register.
+/// Data of a Gauss method during a run: for one trajectory (a register of one lane), or for one
+/// trajectory in each lane of a register.
 #[derive(Clone, Debug)]
 pub struct GaussStep<T, R> {
     order: GaussOrder,
@@ -33,29 +33,30 @@ pub struct GaussStep<T, R> {
     pub(super) iteration_limit: u32,
     pub(in crate::integrate::fixed) start: Vec<R>,
     pub(in crate::integrate::fixed) end: Vec<R>,
-    /// Rounding error of `start`, to be added to it.
+    /// Rounding error of `start`, which compensated sums add to it.
     pub(in crate::integrate::fixed) residue: Vec<R>,
     pub(in crate::integrate::fixed) end_residue: Vec<R>,
-    /// Largest size of each component so far: what its changes are measured
-    /// by, since one that passes through zero has no size of its own. At least the smallest
-    /// divisor: the change of a component that stays zero is zero, not 0/0.
+    /// Largest magnitude of each component so far, by which its changes are divided. The present
+    /// magnitude would not do, because a component can pass through zero. It is at least the
+    /// smallest divisor, so that the relative change of a component that stays zero is zero, not
+    /// 0/0.
     pub(in crate::integrate::fixed) sizes: Vec<R>,
     /// Rates of the stages, one after the other.
     pub(super) rates: Vec<R>,
-    /// Increments of the stages over the start, one after the other.
+    /// Increments of the state from the start to each stage, one after the other.
     pub(super) increments: Vec<R>,
     /// Change of the rates in an iteration.
     pub(super) change: Vec<R>,
     /// State at which rates are evaluated.
     pub(super) stage: Vec<R>,
-    /// Rates at the start of the run, or at a point of a difference.
+    /// Rates at the start of the run, or at a shifted state for difference quotients.
     pub(in crate::integrate::fixed) other: Vec<R>,
-    /// Step that `rates` belong to: zero before the first, and after a failed
-    /// one, when there is nothing to extrapolate.
+    /// Length of the step to which `rates` belong. Zero before the first step and after a failed
+    /// one, because rates cannot be extrapolated then.
     pub(super) step: R,
-    /// Derivatives of the rates, row after row.
+    /// Derivatives of the rates by the state, row by row.
     pub(super) derivatives: Vec<R>,
-    /// What each lane has of its own.
+    /// Iteration of each lane.
     pub(super) iterations: Vec<LaneIteration<T>>,
 }
 
@@ -96,8 +97,8 @@ impl<T: Real, R: Simd<T>> GaussStep<T, R> {
         }
     }
 
-    /// Writes the rates at the start, from which increments are guessed where there is no step
-    /// before.
+    /// Evaluates the rates at the start. The first increments are guessed from them if there is no
+    /// previous step.
     #[inline(always)]
     pub(in crate::integrate::fixed) fn evaluate_start<S: RightHandSide<R>>(
         &mut self,
@@ -108,7 +109,8 @@ impl<T: Real, R: Simd<T>> GaussStep<T, R> {
         system.write(time, &self.start[..n], &mut self.other[..n]);
     }
 
-    /// Solves for the step in the lanes of `sought`, and makes the end where it is solved.
+    /// Solves the step in the lanes of `sought`, and computes the state at its end where the
+    /// solution was found.
     #[inline(always)]
     pub(in crate::integrate::fixed) fn make_step<S: RightHandSide<R>>(
         &mut self,
@@ -119,13 +121,13 @@ impl<T: Real, R: Simd<T>> GaussStep<T, R> {
         self.guess(span.step);
         self.solve(system, span, sought);
         let solved = R::mask(|lane| self.iterations[lane].failure.is_none());
-        // The rates of a failed step say nothing: begin anew.
+        // The rates of a failed step are useless for the next guess.
         self.step = span.step.choose(R::from_f64(0.0), solved);
         self.finish(span.step, solved);
     }
 
-    /// Increments of the stages from the polynomial of the step before, or
-    /// along the rates at the start where there is none.
+    /// Guesses the increments of the stages from the polynomial of the previous step, or from the
+    /// rates at the start if there is none.
     #[inline(always)]
     fn guess(&mut self, step: R) {
         let before = self.step.to_chunk();
@@ -146,7 +148,7 @@ impl<T: Real, R: Simd<T>> GaussStep<T, R> {
         }
     }
 
-    /// Increments of the stages from the polynomial of the step before.
+    /// Extrapolates the increments of the stages with the polynomial of the previous step.
     #[inline(always)]
     fn extrapolate(&mut self, step: R) {
         let (n, s) = (self.start.len(), self.table.nodes.len());
@@ -166,7 +168,8 @@ impl<T: Real, R: Simd<T>> GaussStep<T, R> {
         }
     }
 
-    /// y at the end of the step, from the rates of the stages, in the lanes of `solved`.
+    /// Computes the state at the end of the step from the rates of the stages, in the lanes of
+    /// `solved`.
     #[inline(always)]
     fn finish(&mut self, step: R, solved: R::Mask) {
         let n = self.start.len();
@@ -184,7 +187,7 @@ impl<T: Real, R: Simd<T>> GaussStep<T, R> {
         }
     }
 
-    /// Writes the solution at the fraction `s` of the step.
+    /// Writes the solution at the fraction `s` (0 to 1) of the step.
     #[cfg(feature = "std")]
     #[inline(always)]
     pub(in crate::integrate::fixed) fn value(&self, s: R, out: &mut [R]) {
@@ -195,7 +198,7 @@ impl<T: Real, R: Simd<T>> GaussStep<T, R> {
         }
     }
 
-    /// Number of evaluations of the step in a lane.
+    /// Returns the number of evaluations of the step in a lane.
     #[cfg(feature = "std")]
     pub(in crate::integrate::fixed) fn evaluations(&self, lane: usize) -> u64 {
         self.iterations[lane].evaluations
@@ -207,12 +210,13 @@ impl<T: Real, R: Simd<T>> GaussStep<T, R> {
         self.iterations[lane].failure.is_none()
     }
 
-    /// Takes out why the step is not solved in a lane.
+    /// Returns, and removes, the reason why the step could not be solved in a lane.
     pub(in crate::integrate::fixed) fn take_failure(&mut self, lane: usize) -> Option<Failure<T>> {
         self.iterations.get_mut(lane)?.failure.take()
     }
 
-    /// Puts a state into a lane, where nothing is known of it.
+    /// Sets the state of a lane for a new trajectory, without memory of earlier steps. `None`
+    /// empties the lane.
     #[cfg(feature = "std")]
     pub(in crate::integrate::fixed) fn set_lane(&mut self, lane: usize, values: Option<&[T]>) {
         use crate::integrate::registers::set_lane;
@@ -277,8 +281,8 @@ impl<T: Real, O: Ode<T> + ?Sized> FixedStep<T, O> for GaussStep<T, T> {
         core::mem::swap(&mut self.residue, &mut self.end_residue);
     }
 
-    /// The matrix of Newton's method stays: it decides how fast a step is solved, and
-    /// is made anew where it does not serve.
+    /// Sets the start of the next step. The matrix of Newton's method is kept: it affects only the
+    /// speed of convergence, and is computed again if that becomes slow.
     fn set_start(&mut self, values: &[T]) {
         self.start.copy_from_slice(values);
         self.residue.fill(T::ZERO);

@@ -1,7 +1,7 @@
-//! The Gauss–Legendre methods in the lanes of vector registers: all lanes are iterated until
-//! the last one is solved, and those that are solved sooner keep what they have.
+//! Gauss–Legendre methods for many trajectories, one in each lane of a vector register. The
+//! iteration continues until all lanes are solved; lanes solved earlier keep their result.
 
-// A sealed trait names the types.
+// The types are public because a sealed trait mentions them.
 #![allow(unreachable_pub)]
 
 use alloc::vec;
@@ -38,12 +38,12 @@ impl<O: LaneOde<T>, T: Lane> LaneMethod<O, T> for Gauss<T> {
     }
 }
 
-/// [`Gauss`] at work.
+/// Data of [`Gauss`] during a run with one trajectory in each lane.
 pub struct GaussInLanes<O: LaneOde<T>, T: Lane, R: Simd<T>> {
     systems: LaneSystems<O, T, R>,
     step: GaussStep<T, R>,
     grids: LaneGrids<T>,
-    /// Lanes whose step is to be solved.
+    /// Lanes in which a step is to be solved.
     sought: Flags,
 }
 
@@ -150,8 +150,8 @@ impl<O: LaneOde<T>, T: Lane, R: Simd<T>> LaneSteps<T, R> for GaussInLanes<O, T, 
 }
 
 impl<O: LaneOde<T>, T: Lane, R: Simd<T>> GaussInLanes<O, T, R> {
-    /// Evaluates the rates at the starts of the steps. Returns numbers that are finite where
-    /// they are.
+    /// Evaluates the rates at the starts of the steps. Returns, for each lane, a finite number if
+    /// all rates are finite.
     #[inline(always)]
     fn evaluate_start(&mut self, runs: &Runs<T>) -> Numbers<T> {
         self.step
@@ -159,7 +159,7 @@ impl<O: LaneOde<T>, T: Lane, R: Simd<T>> GaussInLanes<O, T, R> {
         numbers(check_finite(R::from_f64(0.0), &self.step.other))
     }
 
-    /// The last good state of a lane.
+    /// Returns the last accepted state of a lane.
     fn last(&self, runs: &Runs<T>, lane: usize) -> State<T> {
         State {
             time: runs.time[lane],
@@ -167,10 +167,10 @@ impl<O: LaneOde<T>, T: Lane, R: Simd<T>> GaussInLanes<O, T, R> {
         }
     }
 
-    /// Halves the steps of lanes that were not made, or ends their trajectories.
+    /// Halves the steps of the lanes that were not solved, or ends their trajectories.
     #[inline(always)]
     fn halve_or_fail(&mut self, runs: &mut Runs<T>, accepted: &Flags) {
-        // The rates of a failed step say nothing: begin anew.
+        // The rates of a failed step are useless for the next guess.
         let finite_start = self.evaluate_start(runs);
         for lane in 0..R::LANES {
             if !runs.active[lane] || accepted[lane] {

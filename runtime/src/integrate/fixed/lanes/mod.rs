@@ -1,35 +1,36 @@
-//! Steps of a given length in the lanes of vector registers.
+//! Integration of many trajectories by methods with steps of constant length, in the lanes of
+//! vector registers.
 
-// One index into all lanes at once.
+// One index runs through the arrays of all lanes.
 #![allow(clippy::needless_range_loop)]
 
 mod gauss;
 mod rk4;
 
-use super::place::{Grid, GridPlace, PlannedStep};
+use super::grid_position::{Grid, GridPosition, PlannedStep};
 use crate::integrate::lanes::{Flags, Runs};
 use crate::integrate::registers::WIDEST;
 use crate::integrate::steps::Failure;
 use crate::scalar::Lane;
 
-/// The grids of times of all lanes.
+/// Grid of times of each lane.
 struct LaneGrids<T> {
-    /// How far each lane has come.
-    places: [GridPlace<T>; WIDEST],
-    /// The step that is tried.
+    /// Position of each lane on its grid of times.
+    places: [GridPosition<T>; WIDEST],
+    /// The step that each lane tries next.
     planned: [Option<PlannedStep<T>>; WIDEST],
 }
 
 impl<T: Lane> LaneGrids<T> {
     fn new(grid: Grid<T>) -> Self {
         Self {
-            places: [GridPlace::new(grid); WIDEST],
+            places: [GridPosition::new(grid); WIDEST],
             planned: [None; WIDEST],
         }
     }
 
-    /// Plans the steps of the lanes that have a trajectory. Returns those whose step may not
-    /// be tried.
+    /// Plans the next step of each lane that has a trajectory. Returns the lanes whose step is not
+    /// allowed.
     #[inline(always)]
     fn plan(&mut self, runs: &mut Runs<T>, lanes: usize) -> Flags {
         let mut stuck = [false; WIDEST];
@@ -46,7 +47,7 @@ impl<T: Lane> LaneGrids<T> {
         stuck
     }
 
-    /// Why the step of a lane may not be tried.
+    /// Returns the reason why the planned step of a lane is not allowed; `None` if it is allowed.
     #[inline(always)]
     fn why_stuck(&self, runs: &Runs<T>, lane: usize) -> Option<Failure<T>> {
         let place = &self.places[lane];
@@ -54,7 +55,7 @@ impl<T: Lane> LaneGrids<T> {
         check(self.planned[lane]?).err()
     }
 
-    /// Moves a lane to the end of its step.
+    /// Moves the position of a lane to the end of its step.
     #[inline(always)]
     fn reach(&mut self, lane: usize) {
         if let Some(planned) = self.planned[lane] {
@@ -62,15 +63,15 @@ impl<T: Lane> LaneGrids<T> {
         }
     }
 
-    /// Takes the trajectory out of a lane.
+    /// Clears the grid of a lane whose trajectory has ended.
     fn leave(&mut self, lane: usize) {
         self.places[lane].leave();
     }
 
-    /// Begins a trajectory whose rates have been evaluated once.
+    /// Starts the grid of a trajectory, whose rates have been evaluated once.
     ///
     /// # Errors
-    /// Steps are lost in the rounding of the time.
+    /// If a step is so short that it does not change the rounded time.
     fn begin(&mut self, runs: &mut Runs<T>, lane: usize) -> Result<(), Failure<T>> {
         let (time, place) = (runs.time[lane], &mut self.places[lane]);
         runs.next_step[lane] = place.grid().step;
@@ -80,7 +81,8 @@ impl<T: Lane> LaneGrids<T> {
         Ok(())
     }
 
-    /// Halves the step of a lane that was not solved. Returns false if it may not be.
+    /// Halves the step of a lane whose equations could not be solved. Returns false if no more
+    /// halvings are allowed.
     fn halve(&mut self, lane: usize) -> bool {
         self.planned[lane].is_some_and(|planned| self.places[lane].halve(planned))
     }

@@ -1,8 +1,8 @@
-//! The classical Runge–Kutta method in the lanes of vector registers.
+//! The classical Runge–Kutta method for many trajectories, one in each lane of a vector register.
 
-// One index into all lanes at once.
+// One index runs through the arrays of all lanes.
 #![allow(clippy::needless_range_loop)]
-// A sealed trait names the types.
+// The types are public because a sealed trait mentions them.
 #![allow(unreachable_pub)]
 
 use alloc::vec;
@@ -41,12 +41,12 @@ impl<O: LaneOde<T>, T: Lane> LaneMethod<O, T> for Rk4<T> {
     }
 }
 
-/// [`Rk4`] at work.
+/// Data of [`Rk4`] during a run with one trajectory in each lane.
 pub struct Rk4InLanes<O: LaneOde<T>, T: Lane, R: Simd<T>> {
     systems: LaneSystems<O, T, R>,
     step: Rk4Step<R>,
     grids: LaneGrids<T>,
-    /// Zero where the state at the end is finite, NaN elsewhere.
+    /// For each lane: zero if the state at the end of the step is finite, NaN otherwise.
     finite_end: Numbers<T>,
 }
 
@@ -146,8 +146,8 @@ impl<O: LaneOde<T>, T: Lane, R: Simd<T>> LaneSteps<T, R> for Rk4InLanes<O, T, R>
 }
 
 impl<O: LaneOde<T>, T: Lane, R: Simd<T>> Rk4InLanes<O, T, R> {
-    /// Rates at the start of fresh trajectories. The other lanes go through it too, and keep
-    /// what they have.
+    /// Evaluates the rates at the start of new trajectories. The other lanes are evaluated too, but
+    /// keep their values.
     fn begin(&mut self, runs: &mut Runs<T>, fresh: &Flags) {
         let others = self.step.start_rates.clone();
         let Ok(()) = self
@@ -171,7 +171,7 @@ impl<O: LaneOde<T>, T: Lane, R: Simd<T>> Rk4InLanes<O, T, R> {
         }
     }
 
-    /// The last good state of a lane.
+    /// Returns the last accepted state of a lane.
     fn last(&self, runs: &Runs<T>, lane: usize) -> State<T> {
         State {
             time: runs.time[lane],
@@ -179,8 +179,8 @@ impl<O: LaneOde<T>, T: Lane, R: Simd<T>> Rk4InLanes<O, T, R> {
         }
     }
 
-    /// Ends the trajectory of a lane whose stages, whose end or whose rates at the end are not
-    /// finite.
+    /// Ends the trajectory in a lane if its stages, the state at the end of the step, or the rates
+    /// there are not finite.
     #[cold]
     fn fail(&mut self, runs: &mut Runs<T>, lane: usize, [stages, end, _]: [bool; 3]) {
         let last = self.last(runs, lane);
@@ -192,13 +192,14 @@ impl<O: LaneOde<T>, T: Lane, R: Simd<T>> Rk4InLanes<O, T, R> {
         } else {
             let stage = self.systems.failed_stage(lane, 2, Rk4Step::<R>::STAGES);
             runs.evaluations[lane] += stage as u64 - 1;
-            self.place(runs, lane, stage)
+            self.stage_input(runs, lane, stage)
         };
         runs.non_finite(lane, place, last);
     }
 
-    /// Time and state of a stage in a lane: the step is made once more, to the same bits.
-    fn place(&mut self, runs: &Runs<T>, lane: usize, stage: usize) -> (T, Vec<T>) {
+    /// Returns the time and the state of a stage in a lane. Computes them by repeating the step,
+    /// with the same bits.
+    fn stage_input(&mut self, runs: &Runs<T>, lane: usize, stage: usize) -> (T, Vec<T>) {
         let span = StepSpan {
             time: register(&runs.time),
             step: register(&runs.length),

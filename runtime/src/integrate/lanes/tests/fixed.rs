@@ -40,7 +40,13 @@ impl BitsOfSingleStates {
             self.stops.extend(report.map(|report| report.stop));
             self.rejected += report.map_or(0, |report| report.rejected);
             // Texts of numbers are as many digits as it takes, and NaN is NaN.
-            assert_eq!(format!("{:?}", lane.end), format!("{plain:?}"), "{index}");
+            let ends = [format!("{:?}", lane.end), format!("{plain:?}")];
+            let [of_lane, of_plain] = match report.is_some_and(|report| report.rejected > 0) {
+                // Solves that fail may take other numbers of iterations in lanes.
+                true => ends.map(|end| without_evaluations(&end)),
+                false => ends,
+            };
+            assert_eq!(of_lane, of_plain, "{index}");
             assert_eq!(
                 format!("{:?}", lane.samples),
                 format!("{samples:?}"),
@@ -48,6 +54,12 @@ impl BitsOfSingleStates {
             );
         }
     }
+}
+
+/// Returns the text of an end without its number of evaluations.
+fn without_evaluations(end: &str) -> String {
+    let (before, after) = end.split_once("evaluations: ").unwrap_or((end, ""));
+    format!("{before}{}", after.trim_start_matches(char::is_numeric))
 }
 
 impl<T: Lane> Each<T> for BitsOfSingleStates {

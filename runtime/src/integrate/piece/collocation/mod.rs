@@ -1,4 +1,4 @@
-//! Collocation at the nodes of the Gauss–Legendre methods.
+//! Collocation polynomials at the nodes of the Gauss–Legendre methods.
 
 mod tables;
 
@@ -6,11 +6,11 @@ pub(in crate::integrate) use self::tables::GaussTable;
 use super::Lift;
 use crate::scalar::Scalar;
 
-/// The order of a [`Gauss`](crate::integrate::Gauss) method: twice its number of stages.
+/// Order of a [`Gauss`](crate::integrate::Gauss) method, which is twice its number of stages.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum GaussOrder {
-    /// One stage: the implicit midpoint rule.
+    /// Order 2, with one stage: the implicit midpoint rule.
     Two,
     /// Two stages.
     Four,
@@ -21,7 +21,7 @@ pub enum GaussOrder {
 }
 
 impl GaussOrder {
-    /// Nodes and coefficients of the method.
+    /// Returns the nodes and coefficients of the method of this order.
     pub(in crate::integrate) fn table(self) -> &'static GaussTable {
         &tables::TABLES[match self {
             Self::Two => 0,
@@ -31,19 +31,20 @@ impl GaussOrder {
         }]
     }
 
-    /// Number of stages.
+    /// Returns the number of stages.
     #[cfg(feature = "serde")]
     pub(super) fn stages(self) -> usize {
         self.table().nodes.len()
     }
 
-    /// Integral from 0 to x of the Lagrange polynomial of node j; zero where there is no
-    /// such node.
+    /// Returns the integral from 0 to x of the Lagrange polynomial of node j; zero if the method
+    /// has no node j.
     #[inline(always)]
     pub(in crate::integrate) fn integral<S: Scalar>(self, j: usize, x: S) -> S {
         let table = self.table();
         let row = table.integrals.chunks_exact(table.nodes.len()).nth(j);
-        // No closure, which the compiler may leave without the instructions of registers.
+        // Not a closure, which the compiler may compile without the instructions of vector
+        // registers.
         let mut sum = S::from_f64(0.0);
         for &coefficient in row.unwrap_or_default().iter().rev() {
             sum = (sum + S::from_f64(coefficient)) * x;
@@ -51,8 +52,8 @@ impl GaussOrder {
         sum
     }
 
-    /// Weights of the rates at the nodes in the increment from the start of a step of length
-    /// `length` to its fraction `s`: zeros beyond the last node.
+    /// Returns the weights of the stages' rates in the increment over the first fraction `s` of a
+    /// step of length `length`. Weights after the last node are zero.
     #[inline(always)]
     pub(in crate::integrate) fn weights<W: Scalar, S: Lift<W>>(self, length: W, s: S) -> [S; 4] {
         let mut weights = [S::from_f64(0.0); 4];
@@ -63,8 +64,8 @@ impl GaussOrder {
     }
 }
 
-/// The start and the increment that [`weights`](GaussOrder::weights) give, for component i
-/// of n.
+/// Returns component i (of n) of the start plus Σ weight · rate, with the weights from
+/// [`weights`](GaussOrder::weights).
 #[inline(always)]
 pub(in crate::integrate) fn weigh<W: Scalar, S: Lift<W>>(
     weights: &[S; 4],

@@ -1,32 +1,30 @@
 //! Coefficients of the Gauss–Legendre methods of 1 to 4 stages.
 //!
-//! Source: Hairer, Lubich, Wanner, *Geometric Numerical Integration*, 2nd
-//! edition, Springer 2006, section II.1.3: collocation at the zeros of the
-//! shifted Legendre polynomials. Computed from that definition in 50 digits.
-//! A coefficient is the sum of a multiple of 1/1024, whose products with rates
-//! lose nothing systematically, and a small rest: the rounding of a
-//! coefficient would break the symplecticity by as much, in the same
-//! direction in every step (Hairer, McLachlan, Razakarivony, *Achieving
-//! Brouwer's law with implicit Runge–Kutta methods*, BIT 48 (2008) 231–243).
+//! Source: Hairer, Lubich, Wanner, *Geometric Numerical Integration*, 2nd edition, Springer 2006,
+//! section II.1.3: collocation at the zeros of the shifted Legendre polynomials. Computed from that
+//! definition in 50 digits. Each coefficient is stored as a multiple of 1/1024, whose products with
+//! rates have no systematic rounding error, plus a small remainder. A rounded coefficient would
+//! violate symplecticity in the same direction in every step (Hairer, McLachlan, Razakarivony,
+//! *Achieving Brouwer's law with implicit Runge–Kutta methods*, BIT 48 (2008) 231–243).
 
-/// A coefficient as a multiple of 1/1024 and the rest.
+/// Coefficient, stored as a multiple of 1/1024 and a small remainder.
 pub(in crate::integrate) type Split = (f64, f64);
 
-/// One of the methods.
+/// Coefficients of one Gauss–Legendre method.
 #[derive(Debug)]
 pub(in crate::integrate) struct GaussTable {
     /// Nodes c.
     pub(in crate::integrate) nodes: &'static [f64],
-    /// Rows of the matrix a, one after the other.
+    /// Rows of the matrix a of coefficients, one after the other.
     pub(in crate::integrate) matrix: &'static [Split],
     /// Weights b.
     pub(in crate::integrate) weights: &'static [Split],
-    /// Integral from 0 to x of the Lagrange polynomial of each node: the
-    /// coefficients of x, x², …, one row a node.
+    /// Integrals from 0 to x of the Lagrange polynomials of the nodes: the coefficients of x, x²,
+    /// …, with one row per node.
     pub(in crate::integrate) integrals: &'static [f64],
 }
 
-/// The methods of 1 to 4 stages.
+/// Coefficients of the methods of 1 to 4 stages.
 pub(super) const TABLES: [GaussTable; 4] = [
     GaussTable {
         nodes: &[0.5],
@@ -183,9 +181,8 @@ mod tests {
         }
     }
 
-    /// b_i a_ij + b_j a_ji = b_i b_j: the methods are symplectic (Geometric
-    /// Numerical Integration, theorem VI.4.3), here to the last bit that the
-    /// split coefficients hold.
+    /// Checks b_i a_ij + b_j a_ji = b_i b_j, the condition of symplecticity (Geometric Numerical
+    /// Integration, theorem VI.4.3), to the last bit that the split coefficients hold.
     #[test]
     fn the_condition_of_symplecticity() {
         for table in &TABLES {

@@ -6,7 +6,7 @@ mod rates;
 use branched_pendulum::prelude::*;
 use branched_pendulum::sectors::{Normalisation, Sectors};
 use branched_pendulum::system::Workspace;
-use branched_pendulum::transfer::{Given, SymmetricTree};
+use branched_pendulum::transfer::{StateInput, SymmetricTree};
 use branched_pendulum::{Transfer, TransferForm};
 use branched_pendulum_compiler_tests::random::Random;
 use branched_pendulum_trees::PendulumTree;
@@ -71,7 +71,11 @@ fn a_pair_has_the_closed_form() {
     }
 }
 
-fn w(tree: &SymmetricTree<f64>, form: TransferForm, given: Given<'_, f64>) -> Vec<Transfer<f64>> {
+fn w(
+    tree: &SymmetricTree<f64>,
+    form: TransferForm,
+    given: StateInput<'_, f64>,
+) -> Vec<Transfer<f64>> {
     let mut all = vec![Transfer::default(); tree.sectors().len()];
     tree.transfers(&mut Workspace::new(), form, given, &mut all);
     all
@@ -91,7 +95,7 @@ fn transfers_into_leaves_are_those_of_trees_at_run_time() {
         for _ in 0..20 {
             let (q, p) = (random.around_zero(n, 0.8), random.around_zero(n, 0.02));
             let (given, inputs) = (
-                Given::Momenta {
+                StateInput::Momenta {
                     coordinates: &q,
                     momenta: &p,
                 },
@@ -215,7 +219,7 @@ fn budgets_are_those_of_trees_at_run_time() {
 
             let (q, v) = (random.around_zero(n, 0.8), random.around_zero(n, 1.0));
             let p = momenta(&tree, &q, &v);
-            let given = Given::Momenta {
+            let given = StateInput::Momenta {
                 coordinates: &q,
                 momenta: &p,
             };
@@ -240,7 +244,7 @@ fn budgets_are_those_of_trees_at_run_time() {
 
 fn momenta(tree: &SymmetricTree<f64>, q: &[f64], v: &[f64]) -> Vec<f64> {
     let mut p = vec![0.0; q.len()];
-    let given = Given::Rates {
+    let given = StateInput::Rates {
         coordinates: q,
         rates: v,
     };
@@ -266,7 +270,7 @@ fn between_copies_that_differ() {
         let place = || format!("state {state}");
         let (q, v) = (random.around_zero(n, 0.8), random.around_zero(n, 2.0));
         let p = momenta(&symmetric, &q, &v);
-        let given = Given::Momenta {
+        let given = StateInput::Momenta {
             coordinates: &q,
             momenta: &p,
         };
@@ -355,7 +359,7 @@ fn observables_in_symmetric_coordinates_know_them() {
     for state in 0..10 {
         let place = || format!("state {state}");
         let (q, v) = (random.around_zero(n, 1.0), random.around_zero(n, 2.0));
-        let given = Given::Rates {
+        let given = StateInput::Rates {
             coordinates: &q,
             rates: &v,
         };

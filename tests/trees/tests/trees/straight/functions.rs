@@ -3,7 +3,7 @@
 use branched_pendulum::ensemble::Ensemble;
 use branched_pendulum::prelude::*;
 use branched_pendulum::scalar::Dual;
-use branched_pendulum::transfer::Given;
+use branched_pendulum::transfer::StateInput;
 use branched_pendulum_trees::{ParameterUse, PendulumTree, TreeDescription};
 
 use super::GUYED;
@@ -17,7 +17,7 @@ fn observables_know_straight_springs() {
     let energy = tree.observable("energy").unwrap();
     let theta = [0.3, 0.8, -0.4, 0.2, 1.1, -0.7, 0.5];
     let omega = [1.0, -2.0, 0.5, 1.5, -0.3, 2.0, -1.0];
-    let given = Given::Absolute {
+    let given = StateInput::Absolute {
         theta: &theta,
         omega: &omega,
     };
@@ -154,14 +154,17 @@ fn lanes_have_repulsions_of_their_own() {
 fn clauses_that_say_nothing_are_refused() {
     let tree = "gravity = 9.81, a: rod(mass = 1, length = 1) [b: rod(mass = 1, length = 1) * 2]";
     for (clause, message) in [
-        ("between(a, b_1, at = 0.3)", "neither spring nor friction"),
+        (
+            "between(a, b_1, at = 0.3)",
+            "neither spring, friction nor repulsion",
+        ),
         (
             "between(a, b_1, at = 0.3, spring = 1, rest = -1)",
             "rest of `between(a, b_1)`",
         ),
         (
             "between(a, b_1, at = 0.3, rest = 1, friction = 1)",
-            "length at rest, but no spring",
+            "rest length, but no spring",
         ),
         (
             "between(a, b_1, at = 0.3, repulsion = 1)",
@@ -178,23 +181,23 @@ fn clauses_that_say_nothing_are_refused() {
         ("siblings(b, repulsion = 1, exponent = 3)", "has no `at`"),
         (
             "between(a, b_1, at = 1, repulsion = 1, exponent = 3), emit(symmetric)",
-            "`symmetric` beside the repulsion",
+            "`symmetric` cannot include the repulsion",
         ),
         (
             "between(a, b_1, at = each(1, 0), spring = 1)",
-            "keep their distance",
+            "cannot change",
         ),
         (
             "between(a, b_1, at = each(1, 0.5), spring = 1)",
-            "keep their distance",
+            "cannot change",
         ),
         (
             "between(a, b_1, at = each(1, 0, 2), spring = 1)",
-            "does not name a point of each link",
+            "does not give one point for each link",
         ),
         (
             "siblings(b, at = each(1, 2), spring = 1)",
-            "does not name a point of each link",
+            "does not give one point for each link",
         ),
         (
             "between(a, b_1, at = 1, spring = 1, friction(coulomb = 1))",
@@ -206,26 +209,23 @@ fn clauses_that_say_nothing_are_refused() {
         ),
         ("guy(a, at = 1, spring = 1)", "has no `to`"),
         ("guy(a, to = (1, 1), spring = 1)", "has no `at`"),
-        ("guy(a, at = 1, to = 1, spring = 1)", "`to` is not a place"),
+        ("guy(a, at = 1, to = 1, spring = 1)", "`to` is not a point"),
         (
             "guy(a, b_1, at = 1, to = (1, 0), spring = 1)",
             "does not name one link",
         ),
-        (
-            "guy(a, at = 0, to = (1, 0), spring = 1)",
-            "keep their distance",
-        ),
+        ("guy(a, at = 0, to = (1, 0), spring = 1)", "cannot change"),
         (
             "guy(a, at = 1, to = (1, 0), spring = 1), drive(x = t)",
             "a drive that moves the pivot",
         ),
         (
             "siblings(b, at = 1, spring = 1), in_phase(b)",
-            "beside `in_phase(...)`",
+            "cannot be combined with `in_phase(...)`",
         ),
         (
             "between(a, b_1, at = 1, spring = 1), emit(symmetric)",
-            "`symmetric` beside the straight spring",
+            "`symmetric` cannot include the straight spring",
         ),
     ] {
         let found = PendulumTree::parse(&format!("{tree}, {clause}"))

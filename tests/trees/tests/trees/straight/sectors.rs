@@ -2,7 +2,7 @@
 
 use branched_pendulum::prelude::*;
 use branched_pendulum::system::Workspace;
-use branched_pendulum::transfer::{EnergyDefinition, Given, Order, SectorBudget};
+use branched_pendulum::transfer::{EnergyDefinition, Order, SectorBudget, StateInput};
 use branched_pendulum::{Transfer, TransferForm};
 use branched_pendulum_trees::{PendulumTree, TreeError};
 
@@ -30,7 +30,7 @@ fn a_spring_between_two_children_stands_beside_their_weight() {
     let weight = 0.10531 * 9.80665 * 0.043;
     let fall = weight + 2.0 * stiffness * (along * along + lateral * lateral);
     for (theta_d, p_d) in [(0.7, 2e-3), (1e-3, 1e-6), (-2.0, 0.01)] {
-        let given = Given::Momenta {
+        let given = StateInput::Momenta {
             coordinates: &[0.4, -0.3, theta_d],
             momenta: &[0.02, -0.004, p_d],
         };
@@ -68,7 +68,7 @@ fn energies_by_parseval_are_those_of_the_whole_tree() {
             .collect::<Vec<_>>()
     });
     let mut budget = SectorBudget::new();
-    let given = Given::Absolute {
+    let given = StateInput::Absolute {
         theta: &theta,
         omega: &omega,
     };
@@ -104,7 +104,7 @@ fn orders_meet_the_exact_transfer() {
         .unwrap();
     let error_at = |size: f64| {
         let (coordinates, momenta) = ([0.4, 0.3, size], [0.02, -0.004, 2e-3 * size]);
-        let given = Given::Momenta {
+        let given = StateInput::Momenta {
             coordinates: &coordinates,
             momenta: &momenta,
         };

@@ -1,12 +1,19 @@
-//! Usual causes of a budget that does not close: a table that is to be read in another way.
+//! Usual causes of an energy budget that does not close: a table that must be interpreted
+//! differently, or unknown friction.
+//!
+//! Each change of the interpretation is tried separately. If none closes the budget, those that
+//! remove most of the gap are tried together with every other change.
 
+mod change;
+mod marks;
+mod readings;
 mod unknowns;
 mod words;
 
-use std::fmt;
+use branched_pendulum_data::Table;
 
-use branched_pendulum_data::{AngleUnit, FileKind, Table};
-
+pub use self::change::{Cause, Change, Kind};
+use self::readings::leaving_out;
 use super::arguments::Arguments;
 use super::estimate::{Draws, Estimate, Measured};
 use super::source::Source;
@@ -15,111 +22,245 @@ use super::verdict::Verdict;
 use super::wrong_pictures;
 use crate::Failure;
 use crate::frame::Progress;
-use crate::measured_file::{MeasuredFile, MeasuredLinks, Zero};
+use crate::measured_file::{MeasuredFile, MeasuredLinks};
 
-/// Draws from which the closure of another reading follows; so many less where that is hopeless.
-const DRAWS: usize = 40;
-const FEW: usize = 6;
+/// Number of draws for an interpretation that obviously does not close the budget.
+const FEW: usize = 8;
+/// Number of interpretations that are combined with others, if none closes the budget alone.
+const FIRSTS: usize = 6;
+/// Smallest fraction of the gap that a cause must remove to be mentioned if it does not close the
+/// budget.
+const MOST: f64 = 0.5;
 
-/// The kind of cause whose evidence are leaps in the record: without these pictures deviations may
-/// be far larger.
-const WRONG_PICTURES: &str = "wrong pictures";
-
-/// The kind of cause that is no reading.
-const FRICTION: &str = "friction";
-
-/// Another reading of a table.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Cause {
-    /// The kind, as it stands among those that were tried.
-    kind: &'static str,
-    /// What is so, in words.
-    pub words: String,
-    /// The option that reads the file so.
-    pub option: String,
-    reading: MeasuredFile,
-}
-
-impl fmt::Display for Cause {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}: {}", self.words, self.option)
-    }
-}
-
-/// What became of a search for causes.
+/// Result of a search for causes of a gap in the energy budget.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct CauseSearch {
-    /// The causes that close the budget, the one that does it best first.
+    /// Causes that close the budget, the best one first.
     pub closing: Vec<Cause>,
+    /// If no cause closes the budget: those that remove most of the gap, a single one and a pair.
+    pub partial: Vec<Cause>,
     /// Kinds that were tried.
     pub tried: Vec<&'static str>,
-    /// Stretches of pictures that leap out of the motion, s.
+    /// Time intervals of pictures that leap out of the motion, in s.
     pub leaps: Vec<[f64; 2]>,
 }
 
-/// A record whose budget does not close.
+/// A record whose energy budget does not close.
 pub struct Unclosed<'a> {
-    /// The options by which it was read and estimated.
+    /// Command-line options with which the record was read and its motion estimated.
     pub arguments: &'a Arguments,
     /// The pendulum.
     pub subject: &'a MeasuredTree,
     /// The table.
     pub table: &'a Table,
-    /// The links whose angles it holds.
+    /// The links whose angles the table contains.
     pub hung: &'a MeasuredLinks,
-    /// What was read of it.
+    /// Reading of the record.
     pub source: &'a Source,
     /// The verdict.
     pub verdict: Verdict,
 }
 
+/// An interpretation of the table, with the results that follow from it.
+#[derive(Clone, Debug)]
+struct Node {
+    /// The changes that led to this interpretation.
+    changes: Vec<Change>,
+    file: MeasuredFile,
+    source: Source,
+    /// The motion estimated by smoothness only, unless equations of motion are used and it closes
+    /// the budget.
+    estimate: Estimate,
+    /// Number of draws from which its standard deviations are computed.
+    draws: usize,
+    verdict: Verdict,
+}
+
+impl Node {
+    /// The gap in its deviations.
+    fn gap(&self) -> f64 {
+        let squares = |part: usize| -> f64 {
+            self.verdict
+                .closure
+                .iter()
+                .map(|row| row[part] * row[part])
+                .sum()
+        };
+        match squares(0) / squares(1) {
+            ratio if ratio.is_finite() => ratio.sqrt(),
+            _ => f64::INFINITY,
+        }
+    }
+
+    fn has(&self, kind: Kind) -> bool {
+        self.changes.iter().any(|own| own.kind == kind)
+    }
+}
+
 impl Unclosed<'_> {
-    /// Tries the usual causes.
+    /// Tries the usual causes of the gap.
     ///
     /// # Errors
-    /// [`Failure::Smoothing`] of the record as it was read.
+    /// [`Failure::Smoothing`] if the record, as it was read, cannot be smoothed.
     pub fn search(&self, progress: &Progress) -> Result<CauseSearch, Failure> {
         progress.begin("usual causes");
+        let root = self.root()?;
+        let mut search = CauseSearch::default();
+        let wrong = wrong_pictures::stretches(&self.measured(&root));
+        search.leaps = wrong.first().cloned().unwrap_or_default();
+        let singles = self.tried(&root, &mut search.tried, progress);
+        let mut closing = self.closing(&singles);
+        let pairs = match closing.is_empty() {
+            true => self.pairs(&root, &singles, progress),
+            false => Vec::new(),
+        };
+        if closing.is_empty() {
+            closing = self.closing(&pairs);
+        }
+        if closing.is_empty() {
+            search.partial = self.partial(&root, [&singles, &pairs]);
+        }
+        search.closing = closing.iter().map(|node| cause(&root, node)).collect();
+        Ok(search)
+    }
+
+    /// Returns the original interpretation of the record, estimated by smoothness.
+    fn root(&self) -> Result<Node, Failure> {
         let measured = Measured {
             subject: self.subject,
             record: self.source.record(),
         };
-        let smooth = measured.by_smoothness(self.draws(DRAWS))?;
-        let mut causes = match self.arguments.measured.is_of_dots(self.table) {
-            true => self.of_dots(),
-            false => self.of_columns(),
-        };
-        causes.extend(self.tilt(&measured, &smooth));
-        let wrong = wrong_pictures::stretches(&measured);
-        let mut search = CauseSearch {
-            leaps: wrong.first().cloned().unwrap_or_default(),
-            ..CauseSearch::default()
-        };
-        causes.extend(self.wrong_pictures(wrong));
-        let mut closing = Vec::new();
-        for (index, cause) in causes.iter().enumerate() {
-            progress.tell(&format!(
-                "{} ({} of {})",
-                cause.kind,
-                index + 1,
-                causes.len()
-            ));
-            let Some(closes) = self.closes(cause) else {
+        let draws = self.arguments.draws as usize;
+        let estimate = measured.by_smoothness(self.draws(draws))?;
+        Ok(Node {
+            changes: Vec::new(),
+            file: self.arguments.measured.clone(),
+            source: self.source.clone(),
+            verdict: Verdict::of(&self.source.times, &estimate, draws),
+            estimate,
+            draws,
+        })
+    }
+
+    /// Returns the interpretations that result from one by each kind of change that it does not
+    /// contain yet.
+    fn tried(&self, node: &Node, kinds: &mut Vec<&'static str>, progress: &Progress) -> Vec<Node> {
+        let mut changes = self.readings(node);
+        changes.extend(self.tilt(node, false));
+        let wrong = wrong_pictures::stretches(&self.measured(node));
+        changes.extend(wrong.into_iter().map(|stretches| {
+            let words = format!(
+                "pictures with wrong or swapped markers are left out {}",
+                stretches_in_words(&stretches)
+            );
+            leaving_out(&node.file, Kind::Pictures, words, &stretches)
+        }));
+        changes.retain(|change| !node.has(change.kind));
+        let mut found = Vec::new();
+        let count = changes.len();
+        for (index, change) in changes.into_iter().enumerate() {
+            let kind = change.kind.words();
+            progress.show_message(&format!("{kind} ({} of {count})", index + 1));
+            let Some(changed) = self.changed(node, change) else {
                 continue;
             };
-            if !search.tried.contains(&cause.kind) {
-                search.tried.push(cause.kind);
+            if !kinds.contains(&kind) {
+                kinds.push(kind);
             }
-            closing.extend(closes.map(|bars| (bars, cause.clone())));
+            found.extend(changed);
         }
+        // The equations of motion find friction with the motion.
+        if !self.arguments.model && !node.has(Kind::Friction) {
+            if !kinds.contains(&Kind::Friction.words()) {
+                kinds.push(Kind::Friction.words());
+            }
+            found.extend(self.with_friction(node));
+        }
+        found
+    }
+
+    /// Combines each of the interpretations that remove most of the gap with every other change,
+    /// and returns these combinations.
+    fn pairs(&self, root: &Node, singles: &[Node], progress: &Progress) -> Vec<Node> {
+        let mut firsts: Vec<&Node> = singles
+            .iter()
+            .filter(|node| !node.has(Kind::Friction) && self.would_exceed(node))
+            .collect();
+        firsts.sort_by(|one, other| one.gap().total_cmp(&other.gap()));
+        let mut pairs = Vec::new();
+        for first in firsts.into_iter().take(FIRSTS) {
+            for pair in self.tried(first, &mut Vec::new(), progress) {
+                let is_new = pairs.iter().all(|own: &Node| {
+                    own.file != pair.file || own.has(Kind::Friction) != pair.has(Kind::Friction)
+                });
+                if is_new && pair.file != root.file {
+                    pairs.push(pair);
+                }
+            }
+        }
+        // A tilt that is found without the friction that is lacking is wrong.
+        let tilted = self.tilt(root, true);
+        let tilted = tilted
+            .and_then(|change| self.changed(root, change))
+            .flatten();
         if !self.arguments.model {
-            // The equations of motion find friction with the motion.
-            search.tried.push(FRICTION);
-            closing.extend(self.friction(&measured, &smooth));
+            pairs.extend(tilted.and_then(|tilted| self.with_friction(&tilted)));
         }
-        closing.sort_by(|(one, _), (other, _)| one.total_cmp(other));
-        search.closing = closing.into_iter().map(|(_, cause)| cause).collect();
-        Ok(search)
+        // The change that takes more of the gap comes first.
+        let alone = |change: &Change| {
+            let own = singles
+                .iter()
+                .filter(|node| node.changes[0].kind == change.kind);
+            own.map(Node::gap).fold(f64::INFINITY, f64::min)
+        };
+        for pair in &mut pairs {
+            pair.changes
+                .sort_by(|one, other| alone(one).total_cmp(&alone(other)));
+        }
+        pairs
+    }
+
+    /// Returns an interpretation after one more change. `None` if the table cannot be read in this
+    /// way or the change has no effect; the inner `None` if no motion can be estimated from it.
+    fn changed(&self, node: &Node, change: Change) -> Option<Option<Node>> {
+        let source = self.read(&change.file)?;
+        if source.angles == node.source.angles {
+            return None;
+        }
+        let Some((estimate, draws)) = self.estimate(&source) else {
+            return Some(None);
+        };
+        Some(Some(Node {
+            file: change.file.clone(),
+            changes: [&node.changes[..], &[change]].concat(),
+            verdict: Verdict::of(&source.times, &estimate, draws),
+            source,
+            estimate,
+            draws,
+        }))
+    }
+
+    /// Returns an interpretation with the friction that comes nearest to closing the budget, with
+    /// as many draws as needed.
+    fn with_friction(&self, node: &Node) -> Option<Node> {
+        let braked = self.friction(node)?;
+        let draws = self.arguments.draws as usize;
+        if !braked.verdict.closes() || node.draws >= draws {
+            return Some(braked);
+        }
+        let estimate = self.measured(node).by_smoothness(self.draws(draws)).ok()?;
+        self.friction(&Node {
+            estimate,
+            draws,
+            ..node.clone()
+        })
+    }
+
+    fn measured<'n>(&'n self, node: &'n Node) -> Measured<'n> {
+        Measured {
+            subject: self.subject,
+            record: node.source.record(),
+        }
     }
 
     fn draws(&self, count: usize) -> Draws {
@@ -129,7 +270,7 @@ impl Unclosed<'_> {
         }
     }
 
-    /// Reads the table in another way.
+    /// Reads the table with other options.
     fn read(&self, reading: &MeasuredFile) -> Option<Source> {
         let arguments = Arguments {
             measured: reading.clone(),
@@ -138,8 +279,8 @@ impl Unclosed<'_> {
         Source::read(self.table, &arguments, self.hung).ok()
     }
 
-    /// Estimates the motion as the record's own was, with the number of draws; by smoothness alone,
-    /// and few draws, where these show already that the budget does not close.
+    /// Estimates the motion as for the original record, and returns the number of draws. If it is
+    /// obvious that the budget does not close, it uses smoothness only, and few draws.
     fn estimate(&self, source: &Source) -> Option<(Estimate, usize)> {
         let measured = Measured {
             subject: self.subject,
@@ -151,198 +292,66 @@ impl Unclosed<'_> {
         if !closes(&few, FEW) {
             return Some((few, FEW));
         }
-        let smooth = smooth(DRAWS)?;
-        let found = match self.arguments.model && closes(&smooth, DRAWS) {
-            true => measured.by_model(&smooth, self.draws(DRAWS)).ok()?,
+        let all = self.arguments.draws as usize;
+        let smooth = smooth(all)?;
+        let found = match self.arguments.model && closes(&smooth, all) {
+            true => measured.by_model(&smooth, self.draws(all)).ok()?,
             false => smooth,
         };
-        Some((found, DRAWS))
+        Some((found, all))
     }
 
-    /// Reads and estimates the table in another way: none where it cannot be read so or that is
-    /// no other way, else whether the budget closes, by the largest closure in its deviations.
-    fn closes(&self, cause: &Cause) -> Option<Option<f64>> {
-        let source = self.read(&cause.reading)?;
-        if source.angles == self.source.angles {
-            return None;
+    /// Returns true if a gap as large as that of the record would exceed the standard deviations of
+    /// another interpretation, at most of the times at which it exceeds its own.
+    fn would_exceed(&self, node: &Node) -> bool {
+        let (own, other) = (&self.verdict, &node.verdict);
+        if node.changes.iter().any(|change| change.kind.leaves_out()) {
+            return 2.0 * other.trust.closure < own.trust.closure;
         }
-        let Some((estimate, draws)) = self.estimate(&source) else {
-            return Some(None);
-        };
-        let found = Verdict::of(&source.times, &estimate, draws);
-        let is_better = match cause.kind {
-            WRONG_PICTURES => 2.0 * found.trust.closure < self.verdict.trust.closure,
-            _ => self.would_be_told(&found),
-        };
-        Some((found.closes() && is_better).then_some(found.bars))
-    }
-
-    /// Returns true if a gap as large as that of the record would be told by the deviations of
-    /// another reading, at most of the times at which it is told by its own.
-    fn would_be_told(&self, other: &Verdict) -> bool {
-        let own = &self.verdict;
         let pairs = own.closure.iter().zip(&other.closure).skip(1);
-        let told = pairs.filter(|([gap, deviation], _)| gap.abs() > own.allowed * deviation);
-        let by_other = told
+        let reported = pairs.filter(|([gap, deviation], _)| gap.abs() > own.allowed * deviation);
+        let by_other = reported
             .clone()
             .filter(|([gap, _], [_, deviation])| gap.abs() > other.allowed * deviation);
-        2 * by_other.count() > told.count()
-    }
-
-    fn cause(
-        &self,
-        kind: &'static str,
-        words: impl Into<String>,
-        option: impl Into<String>,
-        read: impl FnOnce(&mut MeasuredFile),
-    ) -> Cause {
-        let mut reading = self.arguments.measured.clone();
-        read(&mut reading);
-        Cause {
-            kind,
-            words: words.into(),
-            option: option.into(),
-            reading,
-        }
-    }
-
-    fn of_columns(&self) -> Vec<Cause> {
-        let mut causes = Vec::new();
-        for (unit, words, option) in [
-            (AngleUnit::Degrees, "angles are degrees", "--unit deg"),
-            (AngleUnit::Radians, "angles are radians", "--unit rad"),
-        ] {
-            causes.push(self.cause("unit", words, option, |file| file.unit = Some(unit)));
-        }
-        for (zero, words, option) in [
-            (
-                Zero::Up,
-                "angles count from the upward vertical",
-                "--zero up",
-            ),
-            (
-                Zero::Down,
-                "angles count from the downward vertical",
-                "--zero down",
-            ),
-        ] {
-            causes.push(self.cause("vertical", words, option, |file| file.zero = Some(zero)));
-        }
-        let names = &self.source.links;
-        // A list cannot name what has a comma in it.
-        let is_listed = names.iter().all(|name| !name.contains(','));
-        for first in (1..names.len()).filter(|_| is_listed) {
-            let mut columns = names.clone();
-            let name = columns.remove(first);
-            columns.insert(0, name);
-            let words = format!(
-                "`{}` is the first link, on which the rest hangs",
-                columns[0]
-            );
-            let option = format!("--columns {}", shell(&columns.join(",")));
-            causes.push(self.cause("order of links", words, option, |file| {
-                file.columns = columns
-            }));
-        }
-        let (words, option) = match self.arguments.measured.relative {
-            false => (
-                "later angles are counted from the links above",
-                "--relative",
-            ),
-            true => ("all angles are counted from the vertical", "no --relative"),
-        };
-        let toggle = |file: &mut MeasuredFile| file.relative = !file.relative;
-        causes.push(self.cause("relative angles", words, option, toggle));
-        causes
-    }
-
-    fn of_dots(&self) -> Vec<Cause> {
-        let measured = &self.arguments.measured;
-        let y_down = measured.y_down || !measured.y_up && self.table.kind() == FileKind::DeepLabCut;
-        let (words, option) = match y_down {
-            true => (
-                "y points upwards, or all links' dots are the other way round",
-                "--y-up",
-            ),
-            false => (
-                "y points downwards, or all links' dots are the other way round",
-                "--y-down",
-            ),
-        };
-        let mut causes = vec![self.cause("direction of y", words, option, |file| {
-            (file.y_down, file.y_up) = (!y_down, y_down);
-        })];
-        let dots = measured.dots_of(self.table);
-        let mut add = |kind, words: String, dots: Vec<(String, String)>| {
-            let list = dots.iter().map(|(upper, lower)| format!("{upper}:{lower}"));
-            let option = format!("--dots {}", shell(&list.collect::<Vec<_>>().join(",")));
-            causes.push(self.cause(kind, words, option, |file| {
-                (file.dots, file.pivot) = (dots, None);
-            }));
-        };
-        for first in 1..dots.len() {
-            let mut dots = dots.clone();
-            let link = dots.remove(first);
-            let (upper, lower) = &link;
-            let words =
-                format!("`{upper}` to `{lower}` is the first link, on which the rest hangs");
-            dots.insert(0, link);
-            add("order of links", words, dots);
-        }
-        for (index, (upper, lower)) in dots.iter().enumerate() {
-            let words = format!("`{lower}` is the upper end of the link to `{upper}`");
-            let mut dots = dots.clone();
-            dots[index] = (lower.clone(), upper.clone());
-            add("ends of links", words, dots);
-        }
-        let turned = || {
-            dots.iter()
-                .map(|(upper, lower)| (lower.clone(), upper.clone()))
-        };
-        let words = "the dots are listed from the free end to the pivot".to_owned();
-        add("order of dots", words, turned().rev().collect());
-        if let [(top, first), (middle, second)] = &dots[..]
-            && first == middle
-        {
-            let words = format!("`{first}` is the free end, on `{second}`");
-            let dots = [[top, second], [second, first]];
-            let dots = dots.map(|[upper, lower]| (upper.clone(), lower.clone()));
-            add("order of dots", words, dots.to_vec());
-        }
-        causes
-    }
-
-    fn wrong_pictures(&self, ways: Vec<Vec<[f64; 2]>>) -> Vec<Cause> {
-        let causes = ways.into_iter().map(|stretches| {
-            let told = stretches
-                .iter()
-                .map(|[from, to]| format!("from {from} s to {to} s"));
-            let words = format!(
-                "pictures with wrong or swapped markers are left out {}",
-                told.collect::<Vec<_>>().join(", ")
-            );
-            let all = [&self.arguments.measured.leave_out[..], &stretches].concat();
-            let list = all.iter().map(|[from, to]| format!("{from}:{to}"));
-            let option = format!("--leave-out {}", list.collect::<Vec<_>>().join(","));
-            self.cause(WRONG_PICTURES, words, option, |file| file.leave_out = all)
-        });
-        causes.collect()
+        2 * by_other.count() > reported.count()
     }
 }
 
+impl Unclosed<'_> {
+    /// Returns the interpretations that close the budget, the best one first.
+    fn closing<'n>(&self, nodes: &'n [Node]) -> Vec<&'n Node> {
+        let mut closing: Vec<&Node> = nodes
+            .iter()
+            .filter(|node| node.verdict.closes() && self.would_exceed(node))
+            .collect();
+        closing.sort_by(|one, other| one.verdict.bars.total_cmp(&other.verdict.bars));
+        closing
+    }
+
+    /// Returns from each list the interpretation that removes most of the gap; from the second list
+    /// only if it removes more.
+    fn partial(&self, root: &Node, lists: [&[Node]; 2]) -> Vec<Cause> {
+        let mut found: Vec<Cause> = Vec::new();
+        for nodes in lists {
+            let reported = nodes.iter().filter(|node| self.would_exceed(node));
+            let best = reported.min_by(|one, other| one.gap().total_cmp(&other.gap()));
+            let cause = best.map(|node| cause(root, node));
+            let least = found.last().map_or(MOST, |before| before.share);
+            found.extend(cause.filter(|cause| cause.share > least));
+        }
+        found
+    }
+}
+
+/// Returns the cause that an interpretation reveals.
+fn cause(root: &Node, node: &Node) -> Cause {
+    Cause::of(&node.changes, 1.0 - node.gap() / root.gap())
+}
+
 /// Stretches of time in words.
-pub fn told(stretches: &[[f64; 2]]) -> String {
+pub fn stretches_in_words(stretches: &[[f64; 2]]) -> String {
     let each = stretches
         .iter()
         .map(|[from, to]| format!("from {from} s to {to} s"));
     each.collect::<Vec<_>>().join(", ")
-}
-
-/// A value of an option as a shell takes it.
-fn shell(value: &str) -> String {
-    let is_plain = |c: char| c.is_alphanumeric() || "_-.,:/".contains(c);
-    match value.chars().all(is_plain) {
-        true => value.to_owned(),
-        false => format!("'{}'", value.replace('\'', r"'\''")),
-    }
 }

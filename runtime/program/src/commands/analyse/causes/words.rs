@@ -1,17 +1,64 @@
-//! The verdict in words and numbers, with the causes that were found.
+//! Verdict on the energy budget in words and numbers, with the causes of a gap.
 
 use std::fmt::Write;
 
+use branched_pendulum_data::AngleUnit;
 use serde_json::{Value, json};
 
 use super::super::arguments::Arguments;
 use super::super::report::percent;
 use super::super::subject::Names;
 use super::super::verdict::Verdict;
-use super::{CauseSearch, told};
+use super::{Cause, CauseSearch, stretches_in_words};
+
+/// Causes in numbers.
+fn values(causes: &[Cause]) -> Vec<Value> {
+    let value =
+        |own: &Cause| json!({ "cause": own.words, "option": own.option, "share": own.share });
+    causes.iter().map(value).collect()
+}
+
+/// Describes an energy budget that no cause closes.
+fn open(arguments: &Arguments, search: &CauseSearch) -> String {
+    let mut text = String::new();
+    for (index, cause) in search.partial.iter().enumerate() {
+        let also = if index == 0 {
+            "Most of"
+        } else {
+            "Even more of"
+        };
+        let share = percent(cause.share);
+        let _ = writeln!(text, "  {also} the gap, {share} of it, goes where {cause}");
+    }
+    if !search.leaps.is_empty() {
+        let leaps = stretches_in_words(&search.leaps);
+        let _ = writeln!(text, "  The motion leaps {leaps}: look at these pictures.");
+    }
+    let tried = search.tried.join(", ");
+    let tried = match (search.tried.is_empty(), search.partial.is_empty()) {
+        (true, _) => "The".to_owned(),
+        (false, true) => format!("None of the usual causes closes it ({tried}): the"),
+        (false, false) => "If it does not close with this, the".to_owned(),
+    };
+    // By the equations the integral is not taken from picture to picture.
+    let few = match arguments.model {
+        true => ")",
+        false => "; --model finds some that is lacking), or the pictures are too few",
+    };
+    let _ = writeln!(
+        text,
+        "  {tried} pendulum is not the assumed one with this friction (--set, --parameters{few}."
+    );
+    if matches!(arguments.measured.unit, Some(AngleUnit::Counts(_))) {
+        text += "  An encoder may count from anywhere, each from another place: `identify` finds the \
+                 offsets of links from such a file, for --parameters, and --rest takes them from a \
+                 stretch at rest.\n";
+    }
+    text
+}
 
 impl Verdict {
-    /// The verdict in words, with what a search for causes found where the budget fails.
+    /// Describes the verdict, with the result of a search for causes if the budget does not close.
     pub fn words(
         &self,
         arguments: &Arguments,
@@ -39,26 +86,7 @@ impl Verdict {
             let _ = writeln!(text, "  It closes{also} where {cause}");
         }
         if search.closing.is_empty() {
-            if !search.leaps.is_empty() {
-                let leaps = told(&search.leaps);
-                let _ = writeln!(text, "  The motion leaps {leaps}: look at these pictures.");
-            }
-            let tried = match search.tried.is_empty() {
-                true => "The".to_owned(),
-                false => format!(
-                    "None of the usual causes closes it ({}): the",
-                    search.tried.join(", ")
-                ),
-            };
-            // By the equations the integral is not taken from picture to picture.
-            let few = match arguments.model {
-                true => ")",
-                false => "; --model finds some that is lacking), or the pictures are too few",
-            };
-            let _ = writeln!(
-                text,
-                "  {tried} pendulum is not the assumed one with this friction (--set, --parameters{few}."
-            );
+            text += &open(arguments, &search);
         }
         text
     }
@@ -71,9 +99,8 @@ impl Verdict {
             "bars": self.bars,
             "allowed_bars": self.allowed,
             "closure_of_largest": self.trust.closure,
-            "causes": search.map(|search| search.closing.iter().map(|cause| {
-                json!({ "cause": cause.words, "option": cause.option })
-            }).collect::<Vec<_>>()),
+            "causes": search.map(|search| values(&search.closing)),
+            "partial_causes": search.map(|search| values(&search.partial)),
             "tried": search.map(|search| &search.tried),
         })
     }

@@ -16,13 +16,13 @@ use crate::frame::command_line::parse_line;
 use crate::frame::{Job, Progress};
 
 /// Angles of links against time.
-struct Record<const N: usize> {
+pub(super) struct Record<const N: usize> {
     times: Vec<f64>,
     angles: Vec<[f64; N]>,
 }
 
 /// The paper's pendulum before a camera, with what is real of it.
-fn camera(real: &str, angle_deg: f64, seed: u64) -> Record<3> {
+pub(super) fn camera(real: &str, angle_deg: f64, seed: u64) -> Record<3> {
     let arguments: Arguments = parse_line(&format!(
         "--tree apparatus --set viscous_1=0,viscous_2=0 {real} --start parent={angle_deg} \
          --difference 0.05 --duration 3 --rate 60 --seed {seed}"
@@ -41,7 +41,7 @@ fn camera(real: &str, angle_deg: f64, seed: u64) -> Record<3> {
 }
 
 /// A chain of two links with encoders of 0.5 mrad, with a value of a parameter.
-fn chain(real: &str, start: [f64; 2], seed: u64) -> Record<2> {
+pub(super) fn chain(real: &str, start: [f64; 2], seed: u64) -> Record<2> {
     let [upper, lower] = start.map(f64::to_degrees);
     let arguments: Arguments = parse_line(&format!(
         "--tree double-pendulum {real} --start {upper},{lower} --duration 2.49 --rate 100"
@@ -65,7 +65,7 @@ fn chain(real: &str, start: [f64; 2], seed: u64) -> Record<2> {
 
 impl<const N: usize> Record<N> {
     /// A table of columns.
-    fn table(&self, header: &str, row: impl Fn(f64, [f64; N]) -> Vec<f64>) -> String {
+    pub(super) fn table(&self, header: &str, row: impl Fn(f64, [f64; N]) -> Vec<f64>) -> String {
         let mut text = format!("{header}\n");
         for (time, angles) in self.times.iter().zip(&self.angles) {
             let cells = row(*time, *angles);
@@ -77,7 +77,7 @@ impl<const N: usize> Record<N> {
 }
 
 /// Judges a table as the program does: whether its budget closes, and the options that close it.
-fn judge(text: &str, options: &str) -> (Verdict, Vec<String>) {
+pub(super) fn judge(text: &str, options: &str) -> (Verdict, Vec<String>) {
     let table = Table::parse("swing.csv", text, &TableOptions::default()).unwrap();
     let arguments: Arguments = parse_line(&format!("swing.csv --draws 20 {options}")).unwrap();
     let (_, subject) = tree(&arguments);
@@ -108,8 +108,8 @@ fn assert_cause(text: &str, options: &str, wrong: &str, option: &str) {
     assert!(verdict.closes(), "{option}: {verdict:?}");
 }
 
-const RADIANS: [&str; 2] = ["t [s],a [rad],b [rad]", "t [s],a [rad],b [rad],c [rad]"];
-const CHAIN: &str = "--tree double-pendulum";
+pub(super) const RADIANS: [&str; 2] = ["t [s],a [rad],b [rad]", "t [s],a [rad],b [rad],c [rad]"];
+pub(super) const CHAIN: &str = "--tree double-pendulum";
 
 /// Three of the chain.
 const STARTS: [[f64; 2]; 3] = [[0.8, -0.5], [1.5, 1.2], [2.5, 0.3]];
@@ -119,7 +119,7 @@ fn releases() -> [Record<3>; 3] {
     [(47.8, 1), (35.0, 2), (75.0, 3)].map(|(angle, seed)| camera("", angle, seed))
 }
 
-fn starts() -> [Record<2>; 3] {
+pub(super) fn starts() -> [Record<2>; 3] {
     [0, 1, 2].map(|index| chain("", STARTS[index], 1 + index as u64))
 }
 
@@ -146,8 +146,8 @@ fn right_records_close() {
 #[test]
 fn columns_that_are_read_wrongly_are_named() {
     let [one, two, three] = releases();
-    let text = one.table("t [s],a [deg],b [deg],c [deg]", |_, a| a.to_vec());
-    assert_cause(&text, "", "", "--unit rad");
+    let text = one.table("t [s],a,b,c", |_, a| a.to_vec());
+    assert_cause(&text, "", "--unit deg", "--unit rad");
     // A small swing in degrees passes for one in radians.
     let small = camera("", 2.5, 2);
     let text = small.table("t [s],a,b,c", |_, a| a.map(f64::to_degrees).to_vec());
@@ -169,13 +169,13 @@ fn columns_that_are_read_wrongly_are_named() {
         let (_, closing) = judge(&text, "--tree double-pendulum --relative");
         assert_eq!(closing.first().map(String::as_str), Some("no --relative"));
         assert_cause(&text, CHAIN, "--zero up", "--zero down");
-        let text = record.table("t [s],a [deg],b [deg]", |_, a| a.to_vec());
-        assert_cause(&text, CHAIN, "", "--unit rad");
+        let text = record.table("t [s],a,b", |_, a| a.to_vec());
+        assert_cause(&text, CHAIN, "--unit deg", "--unit rad");
     }
 }
 
 /// Two dots a link, of which the first is at its upper end, or the second; y upwards or downwards.
-fn dots(record: &Record<3>, up: f64, is_upper_first: bool) -> String {
+pub(super) fn dots(record: &Record<3>, up: f64, is_upper_first: bool) -> String {
     record.table(
         "t,a_x,a_y,b_x,b_y,c_x,c_y,d_x,d_y,e_x,e_y,f_x,f_y",
         |_, angles| {
@@ -297,35 +297,34 @@ fn wrong_pictures_are_named() {
 fn other_pendulums_have_no_cause_among_the_readings() {
     const APPARATUS: &str = "--tree apparatus --set viscous_1=0,viscous_2=0";
     for (real, angle, expected) in [
-        ("--real viscous_2=1e-4", 75.0, Some("--set viscous_2")),
-        ("--real viscous_2=3e-4", 60.0, Some("--set viscous_2")),
+        ("--real viscous_2=1e-4", 75.0, Some("--set viscous_2=")),
+        ("--real viscous_2=3e-4", 60.0, Some("--set viscous_2=")),
         ("--real joint_1=0.29", 75.0, None),
     ] {
         let text = camera(real, angle, 2).table(RADIANS[1], |_, a| a.to_vec());
         let (verdict, closing) = judge(&text, APPARATUS);
         assert!(!verdict.closes(), "{real:?}");
-        assert_eq!(
-            closing.first().map(String::as_str),
-            expected,
-            "{real:?} {closing:?}"
-        );
+        assert_begins(&closing, expected, real);
     }
     for (real, expected) in [
         // 1.2, 1.05 and 3 times what is assumed.
         ("--real mass_2=0.165115164", None),
         ("--real joint_1=0.1813551642", None),
-        ("--real viscous_1=7.11428349e-4", Some("--set viscous_1")),
+        ("--real viscous_1=7.11428349e-4", Some("--set viscous_1=")),
     ] {
         for (start, seed) in STARTS.iter().zip(1..) {
             let text = chain(real, *start, seed).table(RADIANS[0], |_, a| a.to_vec());
             let (verdict, closing) = judge(&text, CHAIN);
             assert!(!verdict.closes(), "{real}");
-            assert_eq!(
-                closing.first().map(String::as_str),
-                expected,
-                "{real} {closing:?}"
-            );
+            assert_begins(&closing, expected, real);
         }
+    }
+}
+
+fn assert_begins(closing: &[String], expected: Option<&str>, real: &str) {
+    match (closing.first(), expected) {
+        (Some(option), Some(expected)) => assert!(option.starts_with(expected), "{real} {option}"),
+        (first, expected) => assert_eq!(first.map(String::as_str), expected, "{real} {closing:?}"),
     }
 }
 
@@ -337,21 +336,26 @@ fn the_verdict_comes_first() {
     std::fs::create_dir_all(&folder).unwrap();
     let file = folder.join("swing.csv");
     let record = camera("", 47.8, 1);
-    for (header, first, second) in [
+    for (header, options, first, second) in [
         (
             RADIANS[1],
+            "",
             "The energy budget closes: ",
             file.to_str().unwrap(),
         ),
         (
-            "t [s],a [deg],b [deg],c [deg]",
+            "t [s],a,b,c",
+            "--unit deg",
             "The energy budget does not close: from ",
             "  It closes where angles are radians: --unit rad",
         ),
     ] {
         std::fs::write(&file, record.table(header, |_, a| a.to_vec())).unwrap();
-        let arguments = parse_line(&format!("{} --draws 20", file.display())).unwrap();
-        let job = Job::quiet(&folder).unwrap();
+        let arguments = parse_line(&format!("{} --draws 20 {options}", file.display())).unwrap();
+        // A run without a record would not replace the files of another one.
+        let results = folder.join(if options.is_empty() { "closes" } else { "open" });
+        std::fs::create_dir_all(&results).unwrap();
+        let job = Job::quiet(&results).unwrap();
         run(&arguments, &job).unwrap();
         let printed = job.printed();
         let lines: Vec<&str> = printed.lines().collect();

@@ -1,4 +1,4 @@
-//! Motions of a tree without motor and friction, with momenta that are drawn anew or not.
+//! Motions of a tree without motor and friction, whose momenta are randomly redrawn or not.
 
 use std::num::NonZeroUsize;
 
@@ -14,23 +14,25 @@ use crate::Failure;
 use crate::commands::cascade::arguments::Arguments;
 use crate::commands::cascade::motion::{TOGETHER, diverged};
 
-/// Part of the momenta that outlives a stretch of free motion.
+/// Fraction of the momenta that is kept after an interval of free motion.
 const KEPT: f64 = 0.5;
 
-/// Noise that belongs to friction −γ M ω over a stretch, in parts of √kT: √(1 − kept²).
+/// Strength of the noise that balances friction −γ M ω over an interval, in units of √kT: √(1 −
+/// kept²).
 const NOISE: f64 = 0.866_025_403_784_438_6;
 
 /// Samples in a stretch.
 pub(super) const SAMPLES: u32 = 8;
 
-/// Stretches in which the temperature is found, and those until nothing of the start is left.
+/// Number of intervals in which the temperature is adjusted, and number of those after which the
+/// start is forgotten.
 pub(super) const SETTLING: usize = 30;
 
 /// Tolerance of the free motion.
 const TOLERANCE: f64 = 1e-9;
 
-/// A motion with its random numbers, and sums over it: of the energies of the scales as they
-/// are, and by the formula.
+/// A motion with its random number generator, and sums over it of the energies of the scales:
+/// actual energies, and energies by the formula.
 #[derive(Clone, Debug)]
 pub(super) struct Chain {
     state: Vec<f64>,
@@ -39,22 +41,22 @@ pub(super) struct Chain {
     pub(super) formula: Vec<f64>,
 }
 
-/// Momenta that are drawn anew: the temperature kT (J), and the noise in parts of what belongs
-/// to the friction.
+/// Heat bath by which momenta are redrawn: the temperature kT (J), and the strength of the noise
+/// relative to that which balances the friction.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Bath {
     pub(super) temperature: f64,
     pub(super) noise: f64,
 }
 
-/// What happens in a stretch.
+/// Moves of a stretch.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Stretch {
     pub(super) bath: Option<Bath>,
     pub(super) counts: bool,
 }
 
-/// A tree that keeps its energy.
+/// A tree without motor and friction, which conserves its energy.
 pub(super) struct Isolated<'a> {
     pub(super) tree: PendulumTree,
     pub(super) arguments: &'a Arguments,
@@ -69,8 +71,8 @@ impl Bath {
 }
 
 impl Isolated<'_> {
-    /// Chains that have forgotten where they began, and the temperature kT (J) at which they have
-    /// about this energy (J).
+    /// Returns motions that have forgotten their starts, and the temperature kT (J) at which they
+    /// have approximately the given energy (J).
     pub(super) fn settled(&self, energy: f64) -> Result<(Vec<Chain>, f64), Failure> {
         let mut chains = self.chains();
         let mut temperature = energy / self.tree.links() as f64;
@@ -89,12 +91,13 @@ impl Isolated<'_> {
         Ok((chains, temperature))
     }
 
-    /// The formula takes the square of the number of links.
+    /// Returns the number of intervals between two evaluations of the formula, whose cost grows
+    /// with the square of the number of links.
     pub(super) fn stretches_between_formulas(&self) -> usize {
         self.tree.links().div_ceil(31)
     }
 
-    /// Chains at rest, whose angles are normal numbers.
+    /// Creates motions at rest with normally distributed random angles.
     fn chains(&self) -> Vec<Chain> {
         let chain = |index: usize| {
             let own = self.arguments.seed.wrapping_add(0x5eed) ^ ((index as u64) << 20);
@@ -113,7 +116,7 @@ impl Isolated<'_> {
         (0..self.arguments.starts as usize).map(chain).collect()
     }
 
-    /// Moves all chains through so many stretches, in lanes and on all threads.
+    /// Advances all motions through this many intervals, in lanes and on all threads.
     pub(super) fn move_all(
         &self,
         chains: &[Chain],
@@ -135,7 +138,8 @@ impl Isolated<'_> {
         Ok(groups?.concat())
     }
 
-    /// Moves some chains, from the one of a number on, through the stretch of another number.
+    /// Advances some motions through one interval; `first` is the index of the first motion,
+    /// `number` that of the interval.
     fn move_on(
         &self,
         (first, chains): (usize, &mut [Chain]),
@@ -180,7 +184,7 @@ impl Isolated<'_> {
         Ok(())
     }
 
-    /// Draws a part of the momenta anew.
+    /// Replaces a part of the momenta of a motion by random ones, as a heat bath does.
     fn draw(&self, chain: &mut Chain, bath: Bath) {
         let links = self.tree.links();
         let normal = (0..3 * links).map(|_| StandardNormal.sample(&mut chain.random));
@@ -230,8 +234,8 @@ impl Isolated<'_> {
         energies.sum::<f64>() / chains.len().max(1) as f64
     }
 
-    /// The same configurations, with as much kinetic energy as this energy leaves; without those
-    /// that have more potential energy.
+    /// Returns the configurations with the kinetic energy that gives them this total energy (J),
+    /// without those whose potential energy alone exceeds it.
     pub(super) fn of_energy(&self, chains: &[Chain], energy: f64) -> Vec<Chain> {
         let own = chains.iter().filter_map(|chain| {
             let mut own = chain.clone();

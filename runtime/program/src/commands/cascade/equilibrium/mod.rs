@@ -1,11 +1,11 @@
-//! The thermal equilibrium of a tree, without which "equipartition" has no measure: how a given
-//! energy is shared by the scales where nothing drives and nothing brakes. In three ways.
+//! Thermal equilibrium of a tree, the reference for "equipartition": how a given energy is
+//! distributed over the scales without drive and friction. It is computed by three methods.
 //!
-//! - *Langevin*: between stretches of free motion the momenta are partly drawn anew, which is
+//! - *Langevin*: between intervals of free motion the momenta are partly redrawn at random, which is
 //!   friction −γ M ω with the noise that belongs to it at the temperature kT.
 //! - *By the formula*: at the configurations that this motion visits, ½ kT tr K_s M⁻¹ and the
 //!   potential energy (T. Konishi and T. Yanagita, arXiv:0811.4637 and 2111.11677).
-//! - *At the same energy*: the free motion alone, from states of that energy.
+//! - *At the same energy*: free motion only, from states of that energy.
 
 mod chains;
 
@@ -18,29 +18,29 @@ use crate::Failure;
 use crate::frame::Job;
 use chains::{Bath, Chain, Isolated, SAMPLES, SETTLING, Stretch};
 
-/// Ways to the shares, in words.
-pub const WAYS: [&str; 3] = ["Langevin", "by the formula", "at the same energy"];
+/// Names of the three methods.
+pub const EQUILIBRIUM_METHODS: [&str; 3] = ["Langevin", "by the formula", "at the same energy"];
 
-/// Largest part by which the energy may be missed; shares change little over it.
+/// Largest relative deviation of the energy; the distribution changes little over it.
 const NEAREST: f64 = 0.2;
 
-/// The energy of each scale in equilibrium.
+/// Energy of each scale in thermal equilibrium.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Equilibrium {
     /// kT, J.
     pub temperature: f64,
-    /// Energy of all scales together, J.
+    /// Total energy of all scales, in J.
     pub energy: f64,
-    /// Energies of the scales (J) by each of the [`WAYS`].
+    /// Energies of the scales (J) by each of the three methods ([`EQUILIBRIUM_METHODS`]).
     pub scales: [Vec<Estimate>; 3],
-    /// Configurations whose potential energy alone is more than this energy, which the free motion
-    /// at that energy has to do without.
+    /// Number of configurations that were left out because their potential energy alone exceeds the
+    /// given energy.
     pub left_out: usize,
 }
 
 impl Equilibrium {
-    /// Returns the equilibrium of the tree at this energy (J), from as many starts and over the
-    /// same time as the driven motion.
+    /// Computes the thermal equilibrium of the tree at this energy (J), from as many starts and
+    /// over the same time as the driven motion.
     ///
     /// # Errors
     /// [`Failure`].
@@ -74,26 +74,27 @@ impl Equilibrium {
             scales: driven.generations(),
         };
         let (chains, temperature) = own.settled(energy)?;
-        let found = Self::by_all_ways(&own, &chains, Bath::at(temperature), energy)?;
+        let found = Self::by_all_methods(&own, &chains, Bath::at(temperature), energy)?;
         let factor = found.temperature / temperature;
         if factor.is_nan() || (factor - 1.0).abs() > NEAREST {
             let moved = energy / factor;
             return Err(lacking(&format!(
-                "missed its temperature: it has {moved:.3e} J in equilibrium where {energy:.3e} J were \
-                 asked for (more `--starts` come nearer)"
+                "did not reach the requested energy: it has {moved:.3e} J in equilibrium instead \
+                 of {energy:.3e} J (use more `--starts` to come nearer)"
             )));
         }
         progress.advance(1.0);
         Ok(found)
     }
 
-    /// The largest difference between two ways, in error bars.
+    /// Returns the largest difference between two methods, in error bars.
     pub fn discord(&self) -> f64 {
         discord(&self.scales)
     }
 
-    /// The energies of the scales by all ways, taken to this energy (J) of all.
-    fn by_all_ways(
+    /// Computes the energies of the scales by all three methods, scaled to the given total energy
+    /// (J).
+    fn by_all_methods(
         own: &Isolated<'_>,
         chains: &[Chain],
         bath: Bath,
@@ -141,7 +142,7 @@ impl Equilibrium {
     }
 }
 
-/// The largest difference between two ways, in error bars.
+/// Returns the largest difference between two methods, in error bars.
 fn discord(ways: &[Vec<Estimate>; 3]) -> f64 {
     let [first, second, third] = ways;
     let pairs = [(first, second), (first, third), (second, third)];
@@ -152,14 +153,14 @@ fn discord(ways: &[Vec<Estimate>; 3]) -> f64 {
         let scales = one.iter().zip(other);
         scales.map(|(a, b)| (a.value - b.value).abs() / a.error.hypot(b.error))
     });
-    // What is no number agrees with nothing.
+    // What is not a number agrees with nothing.
     apart.fold(0.0, |most, own| match own.is_nan() {
         true => f64::INFINITY,
         false => most.max(own),
     })
 }
 
-/// Mean energies of all scales, with error bars from chain to chain.
+/// Returns the mean energies of all scales, with error bars from the spread of the motions.
 fn means(chains: &[Chain], sums: impl Fn(&Chain) -> &[f64], samples: f64) -> Vec<Estimate> {
     let scales = chains.first().map_or(0, |chain| sums(chain).len());
     let mean = |scale: usize| {
@@ -190,7 +191,7 @@ mod tests {
             noise,
             ..Bath::at(temperature)
         };
-        Equilibrium::by_all_ways(&own, &chains, bath, 0.3).unwrap()
+        Equilibrium::by_all_methods(&own, &chains, bath, 0.3).unwrap()
     }
 
     #[test]

@@ -1,4 +1,4 @@
-//! Charts: energies by scale, and what flowed between the scales.
+//! Charts of the onset: energies by scale, and the energy that flowed between scales.
 
 use branched_pendulum_charts::{Axis, Chart, Panel, verbatim};
 
@@ -8,10 +8,10 @@ use crate::commands::cascade::report::name;
 use crate::commands::cascade::tree::scales_of_sectors;
 use crate::subject::Subject;
 
-/// Energies below this are not shown on the logarithmic axis, J.
+/// Energy (J) below which values are not shown on the logarithmic axis.
 const LEAST_ENERGY: f64 = 1e-12;
 
-/// Draws energies and flows against time.
+/// Draws energies and energy flows against time.
 pub fn chart(driven: &Subject, run: &Onset) -> Chart {
     let scales = scales_of_sectors(driven);
     let count = 1 + scales.iter().max().unwrap_or(&0);

@@ -1,5 +1,5 @@
-//! The onset in a tree released almost in phase: which sectors does the energy go to, and
-//! who gives it to whom?
+//! Onset of differences in a tree that is released almost in phase: which sectors receive energy,
+//! and from which other sectors?
 //!
 //! - [`run()`]: one trajectory with the budgets of all sectors,
 //! - [`report`]: tables, [`charts`]: charts.
@@ -21,13 +21,13 @@ use crate::Failure;
 use crate::frame::Job;
 use crate::subject::Subject;
 
-/// Most sectors of which the tables tell.
+/// Largest number of sectors that the tables show.
 const MOST_SECTORS: usize = 64;
 
 /// The quantities that are followed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Release {
-    /// The place that all differences are taken from.
+    /// State from which all differences are measured.
     pub start: State<f64>,
     /// Time followed, s.
     pub duration: f64,
@@ -42,7 +42,7 @@ pub struct Release {
 }
 
 impl Release {
-    /// Returns the release from a place.
+    /// Returns the release from a given state, with default values.
     pub fn new(start: State<f64>) -> Self {
         Self {
             start,
@@ -54,7 +54,8 @@ impl Release {
         }
     }
 
-    /// Returns the tree with the torque as a drive; with the one that it has, if there is one.
+    /// Returns the tree with the torque as a drive; if the tree has a drive already, that drive is
+    /// kept.
     ///
     /// # Errors
     /// [`Failure::Tree`].
@@ -78,15 +79,16 @@ impl Release {
         Ok(Subject {
             name: subject.name.clone(),
             tree: description.tree(&values).map_err(refused)?,
+            inputs: subject.inputs.clone(),
             text,
         })
     }
 }
 
-/// Follows the tree, prints the tables and writes samples and charts.
+/// Integrates the motion of the tree, prints the tables and writes samples and charts.
 ///
 /// # Errors
-/// [`Failure`]; [`Failure::Tree`] of a tree without copies, [`Failure::Lacking`] of one with too
+/// [`Failure`]; [`Failure::Tree`] if the tree has no copies, [`Failure::Lacking`] if it has too
 /// many sectors or copies that differ.
 pub fn run(release: &Release, subject: &Subject, job: &Job) -> Result<(), Failure> {
     let (tree, name) = (&subject.tree, &subject.name);
@@ -96,11 +98,11 @@ pub fn run(release: &Release, subject: &Subject, job: &Job) -> Result<(), Failur
     let sectors = tree.sectors().len();
     let what = match () {
         () if sectors > MOST_SECTORS => Some(format!(
-            "`{name}` has {sectors} sectors, and the onset is told of up to {MOST_SECTORS}: leave \
-             `--onset` out for energies by scale"
+            "`{name}` has {sectors} sectors, but the onset is computed for at most \
+             {MOST_SECTORS}: leave out `--onset` to compute energies by scale"
         )),
         () if symmetric.has_unequal_copies() => Some(format!(
-            "copies of `{name}` differ: the onset is told of equal ones"
+            "copies of `{name}` differ: the onset is computed only for equal copies"
         )),
         () => None,
     };

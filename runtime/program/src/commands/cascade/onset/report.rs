@@ -1,4 +1,5 @@
-//! Tables: sectors, closure of the budgets, who gave what to whom.
+//! Tables of the onset: sectors, closure of their energy budgets, and energy transfers between
+//! them.
 
 use std::fmt::Write;
 
@@ -12,7 +13,7 @@ use crate::Failure;
 use crate::frame::Job;
 use crate::subject::Subject;
 
-/// Everything that is printed, as Markdown.
+/// Returns the printed report, as Markdown.
 pub fn report(release: &Release, driven: &Subject, modes: &SectorModes, run: &Onset) -> String {
     let Release {
         start: _,
@@ -37,7 +38,8 @@ pub fn report(release: &Release, driven: &Subject, modes: &SectorModes, run: &On
     text
 }
 
-/// Sectors with their sizes, frequencies and closures.
+/// Returns the table of the sectors, with their sizes, frequencies and the closures of their
+/// budgets.
 fn sector_table(modes: &SectorModes, run: &Onset) -> String {
     let mut text = format!(
         "Sectors: size, eigenfrequencies, and how well each budget closes, as the\n\
@@ -71,7 +73,8 @@ fn sector_table(modes: &SectorModes, run: &Onset) -> String {
     text
 }
 
-/// The time-averaged transfer matrix, with the power of friction and drive.
+/// Returns the table of the time-averaged energy transfers between sectors, with the powers of
+/// friction and drive.
 fn matrix_table(driven: &Subject, run: &Onset) -> String {
     let Some(last) = run.samples.last() else {
         return String::new();
@@ -108,7 +111,7 @@ fn matrix_table(driven: &Subject, run: &Onset) -> String {
     text
 }
 
-/// A power in mW to three decimals; none is shown without a minus sign.
+/// Formats a power (given in W) in mW with three decimals; zero is written without a minus sign.
 fn milli(watts: f64) -> String {
     let text = format!("{:.3}", 1e3 * watts);
     if text == "-0.000" {
@@ -118,8 +121,8 @@ fn milli(watts: f64) -> String {
     }
 }
 
-/// Writes energies by Parseval, what friction and drive gave, and what each
-/// sector got from the others, as CSV.
+/// Writes a CSV table of the sectors' energies (by Parseval's identity), of the energy received
+/// from friction and drive, and of the energy received from other sectors.
 ///
 /// # Errors
 /// [`Failure::Csv`] or [`Failure::File`].
@@ -143,7 +146,7 @@ pub fn write_samples(job: &Job, driven: &Subject, run: &Onset) -> Result<(), Fai
     })
 }
 
-/// Sums over the sectors of each scale.
+/// Returns the sum of the values over the sectors of each scale.
 pub fn by_scale(scales: &[usize], values: &[f64]) -> Vec<f64> {
     let mut sums = vec![0.0; 1 + scales.iter().max().unwrap_or(&0)];
     for (&scale, value) in scales.iter().zip(values) {
@@ -152,7 +155,8 @@ pub fn by_scale(scales: &[usize], values: &[f64]) -> Vec<f64> {
     sums
 }
 
-/// Energy that each scale has given each other one, row by row: rows receive, J.
+/// Returns the energy (J) that each scale has received from each other scale, row by row; the row
+/// is the receiver.
 pub fn matrix_by_scale(scales: &[usize], transfers: &[f64]) -> Vec<f64> {
     let count = 1 + scales.iter().max().unwrap_or(&0);
     let mut sums = vec![0.0; count * count];

@@ -1,4 +1,4 @@
-//! One trajectory with the budgets of all sectors.
+//! One trajectory, with the energy budgets of all sectors.
 
 use std::ops::ControlFlow;
 
@@ -9,7 +9,7 @@ use branched_pendulum::prelude::{
 use branched_pendulum::sectors::{Normalisation, Sectors};
 use branched_pendulum::system::{Model, Workspace};
 use branched_pendulum::transfer::{
-    EnergyDefinition, Given, NonConservative, SectorBudget, SymmetricTree,
+    EnergyDefinition, NonConservative, SectorBudget, StateInput, SymmetricTree,
 };
 use branched_pendulum_trees::PendulumTree;
 
@@ -21,7 +21,7 @@ use crate::subject::Subject;
 /// Samples per second.
 const RATE: f64 = 50.0;
 
-/// The definitions of a sector's energy, with their names.
+/// Definitions of a sector's energy, with their names.
 pub const DEFINITIONS: [(EnergyDefinition, &str); 4] = [
     (EnergyDefinition::Rest, "rest"),
     (EnergyDefinition::Canonical, "canonical"),
@@ -29,21 +29,21 @@ pub const DEFINITIONS: [(EnergyDefinition, &str); 4] = [
     (EnergyDefinition::Parseval, "parseval"),
 ];
 
-/// Index of the definition by Parseval in [`DEFINITIONS`].
+/// Index in [`DEFINITIONS`] of the definition by Parseval's identity.
 pub const PARSEVAL: usize = 3;
 
-/// A number for each sector, by definition.
+/// One number per sector, for each of the [`DEFINITIONS`] of a sector's energy.
 pub type ByDefinition = [Vec<f64>; DEFINITIONS.len()];
 
-/// What has flowed since the release.
+/// Energy that has flowed since the release, in J.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Flowed {
-    /// Integrals of transfer and power, J.
+    /// Energy that each sector has received by transfer and power together, in J.
     pub given: ByDefinition,
-    /// Part of that by Parseval that friction and drive gave, J.
+    /// Energy received from friction and drive, by Parseval's definition, in J.
     pub power: Vec<f64>,
-    /// Integral of the transfer matrix, J, row by row: row s, column r is what sector r gave
-    /// sector s.
+    /// Integral of the transfer matrix, in J, row by row: the entry of row s, column r is the
+    /// energy that sector s received from sector r.
     pub transfers: Vec<f64>,
 }
 
@@ -54,28 +54,27 @@ pub struct Budgets {
     pub time: f64,
     /// Energies of the sectors, J.
     pub energies: ByDefinition,
-    /// What has flowed since the release.
+    /// Energy that has flowed since the release, in J.
     pub flowed: Flowed,
 }
 
-/// A run: samples at even times.
+/// Result of a run: samples at equally spaced times.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Onset {
-    /// The samples, the first at the release.
+    /// The samples; the first one is at the release.
     pub samples: Vec<Budgets>,
     /// The integrator's account.
     pub account: Report<f64>,
 }
 
 impl Onset {
-    /// Releases the tree with small differences, and follows it. In symmetric coordinates,
-    /// where small differences keep their digits.
+    /// Integrates the motion of the tree after a release with small differences. It uses symmetric
+    /// coordinates, in which small differences keep their digits.
     ///
-    /// `progress` is called after every step with the part of the duration that
-    /// is done.
+    /// `progress` is called after every step with the completed fraction of the duration.
     ///
     /// # Errors
-    /// [`Failure::Tree`] of a tree without copies, or [`Failure::Motion`].
+    /// [`Failure::Tree`] if the tree has no copies, or [`Failure::Motion`].
     pub fn new(
         release: &Release,
         driven: &Subject,
@@ -107,8 +106,9 @@ impl Onset {
         })
     }
 
-    /// How well the budget of each sector closes, by definition: the largest
-    /// |∫(W + P) dt − ΔE_s| at any sample over the largest energy of any sector.
+    /// Returns the closure error of each sector's energy budget, for one definition of the energy:
+    /// the largest absolute value of ∫(W + P) dt − ΔE_s at any sample, divided by the largest
+    /// energy of any sector.
     pub fn closure(&self, definition: usize) -> Vec<f64> {
         let Some(first) = self.samples.first() else {
             return Vec::new();
@@ -127,8 +127,8 @@ impl Onset {
     }
 }
 
-/// The start in symmetric coordinates, with differences that alternate in sign and shrink from
-/// one coordinate to the next, so that no two branches move alike by accident.
+/// Returns the start in symmetric coordinates. Its differences alternate in sign and decrease from
+/// one coordinate to the next, so that no two branches move identically by accident.
 fn at_release(release: &Release, tree: &PendulumTree) -> State<f64> {
     let links = tree.links();
     let mut values = vec![0.0; 2 * links];
@@ -149,7 +149,7 @@ fn at_release(release: &Release, tree: &PendulumTree) -> State<f64> {
     State::new(start.time, values)
 }
 
-/// Takes samples and integrates the flows between them, step by step.
+/// Takes samples of a motion, and integrates the energy flows between them, step by step.
 struct Recorder<'a> {
     tree: &'a PendulumTree,
     symmetric: SymmetricTree<f64>,
@@ -181,13 +181,13 @@ impl<'a> Recorder<'a> {
         }
     }
 
-    /// Computes the budgets at one instant.
+    /// Computes the energy budgets at one time.
     fn budget(&mut self, time: f64, values: &[f64]) {
         let (coordinates, rates) = values.split_at(self.tree.links());
         let mut acting = vec![NonConservative::Friction];
         acting.extend(self.tree.drive(time).map(NonConservative::Drive));
         for (&(definition, _), budget) in DEFINITIONS.iter().zip(&mut self.budgets) {
-            let given = Given::Rates { coordinates, rates };
+            let given = StateInput::Rates { coordinates, rates };
             self.symmetric
                 .budget(&mut self.workspace, definition, &acting, given, budget);
         }
@@ -209,7 +209,7 @@ impl<'a> Recorder<'a> {
         self.accumulate(step, from, step.end_time())
     }
 
-    /// Adds what flows from `from` to `to`, both within the step.
+    /// Adds the energy that flows between the times `from` and `to`, both within the step.
     fn accumulate(
         &mut self,
         step: &mut DenseStep<'_, f64>,
@@ -227,7 +227,7 @@ impl<'a> Recorder<'a> {
             step.eval(time, &mut values)?;
             self.budget(time, &values);
             let (coordinates, rates) = values.split_at(links);
-            let given = Given::Rates { coordinates, rates };
+            let given = StateInput::Rates { coordinates, rates };
             self.symmetric
                 .transfer_matrix(&mut self.workspace, given, &mut self.matrix);
             let weight = weight * length;
@@ -315,7 +315,7 @@ mod tests {
         }
     }
 
-    /// Motion in phase stays so, to the last bit.
+    /// Checks that a motion in phase stays in phase exactly, so that the means lose no energy.
     #[test]
     fn without_differences_nothing_leaves_the_means() {
         let (release, driven) = release(1.0, 0.0);
