@@ -140,7 +140,7 @@ impl Quantity {
 
     /// Returns the exact value for one choice of the parameters, each with at least twenty bits;
     /// `None` if the value is undefined or has too many digits.
-    fn exact_probe(&self) -> Option<Rational> {
+    pub(super) fn exact_probe(&self) -> Option<Rational> {
         let at = |part: &Self| part.exact_probe();
         match self {
             Self::Atom(QuantityAtom::Exact(number)) => Some(number.clone()),

@@ -8,9 +8,10 @@ use crate::exact::{ExactError, Rational};
 ///
 /// The constructors fold constants: an expression of literals is one number; a sum or product
 /// contains at most one number, which comes first; there are no factors 0 or 1 and no summand 0; a
-/// sum that is 0 for all parameters is 0; nothing is divided by a number; no power is 0 or 1; no
-/// number has a [`Negative`](RationalExpression::Negative) around it. Members keep the order in
-/// which they were written.
+/// sum that is 0 for all parameters is 0; a product or quotient from which all parameters cancel is
+/// a number; nothing is divided by a number; no power is 0 or 1; no number has a
+/// [`Negative`](RationalExpression::Negative) around it. Members keep the order in which they were
+/// written.
 pub type Quantity = RationalExpression<QuantityAtom>;
 
 /// Operands of quantities.
@@ -123,6 +124,20 @@ impl Quantity {
         if constant.is_zero() {
             return Self::zero();
         }
+        // Without one of these, no factor can cancel another one.
+        let divides = |factor: &Self| match factor {
+            Self::Quotient(..) => true,
+            Self::Power(_, exponent) => *exponent < 0,
+            Self::Atom(_) | Self::Sum(_) | Self::Product(_) | Self::Negative(_) => false,
+        };
+        if rest.iter().any(divides) {
+            let product = Self::collected(rest, || Self::integer(1), Self::Product);
+            match product.or_its_number() {
+                Self::Atom(Exact(number)) => return Self::number(constant * number),
+                Self::Product(factors) => rest = factors,
+                factor => rest = vec![factor],
+            }
+        }
         let opposite = -&constant;
         if opposite.is_one() && !rest.is_empty() {
             let positive = Self::collected(rest, || Self::integer(1), Self::Product);
@@ -175,7 +190,18 @@ impl Quantity {
                 Ok(Self::product([self, Self::number(inverse)]))
             }
             _ if self.is_zero() => Ok(self),
-            divisor => Ok(Self::Quotient(Box::new(self), Box::new(divisor))),
+            divisor => Ok(Self::Quotient(Box::new(self), Box::new(divisor)).or_its_number()),
+        }
+    }
+
+    /// Returns the number that the value is for all parameters, as `-2 * a / a` is −2, or the value
+    /// unchanged if it depends on parameters.
+    fn or_its_number(self) -> Self {
+        match self.exact_probe() {
+            Some(number) if Self::Sum(vec![self.clone(), Self::number(-&number)]).vanishes() => {
+                Self::number(number)
+            }
+            _ => self,
         }
     }
 

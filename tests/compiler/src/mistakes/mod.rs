@@ -3,14 +3,20 @@
 mod asked;
 mod normal_form;
 mod tree;
+mod values;
 
 /// The name of a golden and the source with the mistake.
 pub type Mistake = (&'static str, &'static str);
 
 /// All of them.
 pub fn mistakes() -> impl Iterator<Item = Mistake> {
-    [tree::MISTAKES, asked::MISTAKES, normal_form::MISTAKES]
-        .into_iter()
-        .flatten()
-        .copied()
+    [
+        tree::MISTAKES,
+        values::MISTAKES,
+        asked::MISTAKES,
+        normal_form::MISTAKES,
+    ]
+    .into_iter()
+    .flatten()
+    .copied()
 }
