@@ -69,7 +69,7 @@ where
             power: &power,
         };
         let method = Dop853::new(Options::with_tolerance(1e-13));
-        let end = method.run(&system, &start, 10.0).expect("it goes on").state;
+        let end = method.run(&system, &start, 4.0).expect("it goes on").state;
         let energies = [energy(&start.values), energy(&end.values)];
         let work = end.values[2 * links];
         let size = energies[0].abs().max(energies[1].abs());
@@ -261,7 +261,7 @@ fn of_sectors() {
     values.resize(2 * LINKS + 12, 0.0);
     let start = State::new(0.0, values);
     let method = Dop853::new(Options::with_tolerance(1e-13));
-    let end = method.run(&system, &start, 10.0).expect("it goes on").state;
+    let end = method.run(&system, &start, 4.0).expect("it goes on").state;
     let energies = |state: &State<f64>| -> Vec<f64> {
         let all = budgets(state.time, &state.values).into_iter();
         all.flat_map(|budget| budget.energies).collect()

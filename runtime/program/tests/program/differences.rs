@@ -136,7 +136,7 @@ fn orders_of_the_transfer_fail_at_growing_amplitudes() {
     let tree = folder.file("arms.txt", ARMS);
     let words = ["transfer", "--tree", &tree, "--against", "amplitude"];
     let more = ["--start", "body=45", "--duration", "2", "--rate", "50"];
-    let text = folder.answer(&[&words[..], &more, &["--states", "100"]].concat());
+    let text = folder.answer(&[&words[..], &more, &["--states", "16"]].concat());
     assert!(text.contains("into `upper_d`"), "{text}");
     assert!(text.contains("amplitude order 8"), "{text}");
     has_charts(&folder, "transfer");
