@@ -2,6 +2,7 @@
 //! averages with their errors ([`statistics`]); the growth of deviations and of differences between
 //! copies; and the range of amplitudes in which truncated energy transfers are accurate.
 
+mod eigenvalues;
 pub mod equilibrium;
 pub mod growth;
 pub mod modes;

@@ -23,6 +23,9 @@ errors! {
         Mode => "a mode must have a positive frequency, and a shape with one number for each angle",
         /// No periodic motion was found near the linear mode.
         NoOrbit => "found no periodic motion near the linear mode",
+        /// The eigenvalues of the change of differences over a period were not found.
+        Multipliers => "the search for the factors by which differences grow in a period did not \
+            converge: the motion is too unstable",
         /// The integration of a motion failed.
         Integration(error: Box<IntegrationError<f64>>) => "{error}",
     }

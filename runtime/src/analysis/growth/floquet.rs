@@ -3,6 +3,7 @@
 use nalgebra::DMatrix;
 
 use super::{BrakeOrbit, Checked, FINER, GrowthError, TransverseSystem, difference_ranges};
+use crate::analysis::eigenvalues::eigenvalues;
 use crate::analysis::variational::{Linearised, flow_jacobian};
 use crate::integrate::{Dop853, Integrator, Options};
 use crate::system::State;
@@ -82,7 +83,7 @@ impl Floquet {
     ) -> Result<Self, GrowthError> {
         let [coarse, fine] = [tolerance, FINER * tolerance].map(|tolerance| {
             let matrix = monodromy(&Dop853::new(Options::with_tolerance(tolerance)), period)?;
-            let values = matrix.complex_eigenvalues();
+            let values = eigenvalues(&matrix).ok_or(GrowthError::Multipliers)?;
             let mut values: Vec<[f64; 2]> = values.iter().map(|v| [v.re, v.im]).collect();
             values.sort_by(|a, b| size(b).total_cmp(&size(a)));
             Ok::<_, GrowthError>((matrix, values))

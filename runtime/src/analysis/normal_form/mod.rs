@@ -73,6 +73,11 @@ pub struct NormalForm {
     rest: Vec<f64>,
     expansion: ExpandedHamiltonian,
     resonances: Vec<Resonance>,
+    /// Resonances of order 4 that would let differences grow, but are removed because they are far
+    /// at rest.
+    far: Vec<Resonance>,
+    /// Mismatch below which one of them is no longer far, Hz.
+    near_hz: f64,
     averaged: Averaged,
     /// Slow motion by the two highest degrees.
     flows: [SlowFlow; 2],
@@ -81,6 +86,9 @@ pub struct NormalForm {
     /// Normal coordinates of releases from rest, whose linear ones are real.
     at_rest: Vec<Monomials>,
 }
+
+/// Mismatch at which a removed resonance is no longer far, as a part of the bound of kept ones.
+const NEAR: f64 = 0.5;
 
 /// Largest number of monomials of an expansion.
 const MOST_MONOMIALS: f64 = 2e6;
@@ -145,7 +153,13 @@ impl NormalForm {
             .map(|degree| SlowFlow::of(&normalised.hamiltonian, degree, in_phase, differences));
         let of_both = |own: &Vec<Terms>| Monomials::of(own, &variables);
         let of_real = |own: &Vec<Terms>| Monomials::of(&real(own, modes), &variables[..in_phase]);
+        let far = Resonance::of_growth(in_phase, differences).into_iter();
+        let far = far.filter(|own| !keeps(own) && !options.removed.contains(&own.canonical()));
+        let far: Vec<Resonance> = far.collect();
+        let near_hz = NEAR * options.bound * reference / TAU;
         Ok(Self {
+            far,
+            near_hz,
             averaged: Averaged::of(&normalised.hamiltonian, in_phase, differences),
             flows,
             resonances,
@@ -290,7 +304,31 @@ impl NormalForm {
                 [level(0)?, level(1)?]
             }
         };
-        Prediction::of(&self.averaged, levels, degrees, self.options.agreement)
+        let prediction = Prediction::of(&self.averaged, levels, degrees, self.options.agreement)?;
+        self.check_removed(&prediction)?;
+        Ok(prediction)
+    }
+
+    /// Refuses a prediction if the frequencies at its amplitude bring a resonance near that was
+    /// removed because it is far at rest.
+    fn check_removed(&self, prediction: &Prediction) -> Result<(), Refusal> {
+        let both = [
+            &prediction.frequencies_hz,
+            &prediction.difference_frequencies_hz,
+        ];
+        let frequencies = both.into_iter().flatten();
+        let frequencies: Vec<f64> = frequencies.map(|own| own.value).collect();
+        let nearest = self.far.iter().map(|own| (own, own.mismatch(&frequencies)));
+        let nearest = nearest.min_by(|(_, a), (_, b)| a.abs().total_cmp(&b.abs()));
+        match nearest {
+            Some((resonance, mismatch_hz)) if mismatch_hz.abs() < self.near_hz => {
+                Err(Refusal::Approached {
+                    name: resonance.to_string(),
+                    mismatch_hz,
+                })
+            }
+            _ => Ok(()),
+        }
     }
 
     /// Averages the motion under the active resonances, by one of the two degrees.

@@ -10,6 +10,7 @@ use super::flow::SlowEquations;
 use super::lattice::one_turn;
 use super::refusal::Refusal;
 use super::resonance::Resonance;
+use crate::analysis::eigenvalues::eigenvalues;
 use crate::integrate::{Crossing, Dop853, Event, Integrator, Options, StopReason};
 use crate::system::State;
 
@@ -50,22 +51,23 @@ impl SlowOrbit<'_> {
     /// Returns the averages of the motion through these coordinates of the modes in phase.
     pub(super) fn averages(&self, start: &[evaluation::Complex]) -> Result<SlowMotion, Refusal> {
         match self.slow_phase {
-            None => Ok(self.steady(start)),
+            None => self.steady(start),
             Some(phase) => self.periodic(start, phase),
         }
     }
 
     /// Averages a motion whose actions are constant: exponents of a constant matrix.
-    fn steady(&self, start: &[evaluation::Complex]) -> SlowMotion {
+    fn steady(&self, start: &[evaluation::Complex]) -> Result<SlowMotion, Refusal> {
         let rates = self.equations.phase_rates(start);
         let followed = self.followed(&rates);
         let matrix = self.equations.constant_matrix(start, &followed);
-        let modes = DifferenceModes::of(&matrix);
+        let modes = DifferenceModes::of(&matrix)?;
         let largest = modes.all.iter().map(|own| own.re).fold(0.0, f64::max);
         let advance = followed.iter().zip(&modes.own).map(|(a, own)| a + own.im);
         let advance: Vec<f64> = rates.iter().copied().chain(advance).collect();
         let turns: Vec<f64> = modes.own.iter().map(|own| own.im).collect();
-        self.motion(&advance, largest, nearest_pair(&turns, |own| own), 1.0)
+        let margin = nearest_pair(&turns, |own| own);
+        Ok(self.motion(&advance, largest, margin, 1.0))
     }
 
     /// Averages a motion in which one combination of the phases exchanges energy between modes:
@@ -101,7 +103,7 @@ impl SlowOrbit<'_> {
                 false => cosine * y - sine * x,
             }
         });
-        let modes = DifferenceModes::of(&rotated);
+        let modes = DifferenceModes::of(&rotated)?;
         let size = modes.all.iter().map(|own| own.norm()).fold(1.0, f64::max);
         let angles: Vec<f64> = modes.own.iter().map(|own| own.arg()).collect();
         let means = &end.values[self.equations.integrals()];
@@ -246,15 +248,17 @@ struct DifferenceModes {
 }
 
 impl DifferenceModes {
-    fn of(matrix: &DMatrix<f64>) -> Self {
+    fn of(matrix: &DMatrix<f64>) -> Result<Self, Refusal> {
         let k = matrix.nrows() / 2;
         if k == 0 {
-            return Self {
+            return Ok(Self {
                 all: Vec::new(),
                 own: Vec::new(),
-            };
+            });
         }
-        let all: Vec<Complex<f64>> = matrix.complex_eigenvalues().iter().copied().collect();
+        let all = eigenvalues(matrix).ok_or_else(|| Refusal::Failed {
+            reason: "the search for the exponents of the differences did not converge".into(),
+        })?;
         let complex = matrix.map(|own| Complex::new(own, 0.0));
         let largest = matrix.amax();
         let parts: Vec<Vec<f64>> = all
@@ -265,10 +269,10 @@ impl DifferenceModes {
             let best = (0..all.len()).max_by(|i, j| parts[*i][a].total_cmp(&parts[*j][a]));
             best.map_or(Complex::new(f64::NAN, f64::NAN), |best| all[best])
         });
-        Self {
+        Ok(Self {
             own: own.collect(),
             all,
-        }
+        })
     }
 }
 

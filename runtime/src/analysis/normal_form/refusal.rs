@@ -32,6 +32,14 @@ errors! {
             /// Longest period accepted, s.
             time: f64,
         } => "the motion in phase under {names} does not return within {time} s",
+        /// A resonance that is not kept becomes a near one at this amplitude.
+        Approached {
+            /// Name of the resonance.
+            name: String,
+            /// Mismatch of the resonance at this amplitude, Hz.
+            mismatch_hz: f64,
+        } => "at this amplitude the mismatch of {name}, which is not kept, is only \
+            {mismatch_hz:.2e} Hz; help: use a larger bound of kept resonances",
         /// Differences grow by one of the two degrees alone, on a whole interval of releases.
         OneDegree => "differences grow here by one of the two highest degrees alone",
         /// A computation on the way failed.

@@ -37,6 +37,34 @@ impl Resonance {
         }
     }
 
+    /// Returns all resonances of order 4 that let differences grow: two frequencies of modes in phase
+    /// and two of differences.
+    pub(super) fn of_growth(in_phase: usize, differences: usize) -> Vec<Self> {
+        let pairs = |count: usize, signs: &'static [i32]| {
+            let pairs = (0..count).flat_map(move |i| (i..count).map(move |j| (i, j)));
+            pairs.flat_map(move |(i, j)| {
+                signs.iter().map(move |sign| {
+                    let mut multiples = vec![0; count];
+                    multiples[i] += 1;
+                    multiples[j] += sign;
+                    multiples
+                })
+            })
+        };
+        let all = pairs(differences, &[1]).flat_map(|own| {
+            let own: Vec<i32> = own.iter().map(|n| -n).collect();
+            pairs(in_phase, &[1, -1]).flat_map(move |both| {
+                let opposite: Vec<i32> = both.iter().map(|n| -n).collect();
+                let differences = own.clone();
+                [both, opposite].map(|in_phase| Self {
+                    in_phase,
+                    differences: differences.clone(),
+                })
+            })
+        });
+        all.filter(|own| own.order() == 4).collect()
+    }
+
     /// Returns all multiples.
     pub(super) fn multiples(&self) -> impl Iterator<Item = i32> + '_ {
         self.in_phase.iter().chain(&self.differences).copied()
