@@ -86,8 +86,9 @@ pub fn stable_equilibrium(
 /// Finds stable equilibria: first the one to which the energy descends from zero angles, then
 /// others by ascending energy. For at most 32 angles it also descends from 16 to 64 random starts,
 /// and for any number of angles from the saddle near zero in both directions. Minima with small
-/// basins of attraction may be missed. Last comes the unstable equilibrium that Newton's method
-/// finds from zero angles, if it finds one.
+/// basins of attraction may be missed. Of neutral equilibria with equal energies, which form a
+/// continuum, the first one found is listed. Last comes the unstable equilibrium that Newton's
+/// method finds from zero angles, if it finds one.
 ///
 /// # Errors
 ///
@@ -117,13 +118,20 @@ pub fn equilibria(potential: &impl PotentialEnergy) -> Result<Vec<Equilibrium>, 
         let start: Vec<f64> = (0..n).map(angle).collect();
         found.extend(stable_equilibrium(potential, &start).ok());
     }
+    let energies = found.iter().map(|own| own.energy.abs());
+    let scale = energies.fold(0.0, f64::max);
+    // Neutral equilibria of one energy are samples of a continuum.
+    let is_known = |own: &Equilibrium, other: &Equilibrium| {
+        let neutral = [own, other]
+            .iter()
+            .all(|own| own.stability == Stability::Neutral);
+        distance(&other.theta, &own.theta) <= SAME
+            || neutral && (other.energy - own.energy).abs() <= SAME * scale
+    };
     let mut distinct: Vec<Equilibrium> = Vec::new();
     for mut own in found {
         unwind(potential, &mut own);
-        if distinct
-            .iter()
-            .all(|other| distance(&other.theta, &own.theta) > SAME)
-        {
+        if !distinct.iter().any(|other| is_known(&own, other)) {
             distinct.push(own);
         }
     }
