@@ -177,7 +177,7 @@ const MOST_LINES: usize = 8;
 #[cfg(test)]
 mod tests {
     use super::along;
-    use crate::motion::{MethodArguments, sample};
+    use crate::motion::{MethodArguments, MethodChoice, sample};
     use crate::subject::{Subject, TreeArguments};
     use branched_pendulum::prelude::*;
     use branched_pendulum::system::Workspace;
@@ -221,7 +221,7 @@ mod tests {
             let theta: Vec<f64> = (0..links).map(|link| 0.6 - 0.3 * link as f64).collect();
             let times: Vec<f64> = (0..=4000).map(|step| f64::from(step) * 2.5e-4).collect();
             let method = MethodArguments {
-                method: Method::Dop853,
+                method: MethodChoice::Given(Method::Dop853),
                 tolerance: Some(1e-12),
             };
             let start = State::at_rest(0.0, &theta);

@@ -1,7 +1,10 @@
 //! Motion of a tree, integrated and sampled.
 
-use branched_pendulum::integrate::{AnyIntegrator, Horizon, Report};
+use std::str::FromStr;
+
+use branched_pendulum::integrate::{Horizon, Report, UnknownMethod};
 use branched_pendulum::prelude::*;
+use branched_pendulum_trees::PendulumTree;
 
 use crate::Failure;
 use crate::frame::command_line::number;
@@ -10,29 +13,63 @@ use crate::subject::Subject;
 /// Command-line options for the integration of motions.
 #[derive(Clone, Debug, clap::Args, PartialEq)]
 pub struct MethodArguments {
-    /// integration method: dop853, dopri5, verner98, taylor, rk4, gauss2, gauss4, gauss6, gauss8 or
-    /// animation
-    #[arg(long, value_name = "METHOD", default_value = "dop853")]
-    pub method: Method,
+    /// integration method: auto, dop853, dopri5, verner98, taylor, rk4, gauss2, gauss4, gauss6, gauss8
+    /// or animation; auto takes the one that is usually the fastest for the tree and the tolerance
+    #[arg(
+        verbatim_doc_comment,
+        long,
+        value_name = "METHOD",
+        default_value = "auto"
+    )]
+    pub method: MethodChoice,
     /// relative error of one step, 1e-16 to 0.2, by default 1e-10; for methods with constant steps
     /// the step length in s, by default 1e-3
     #[arg(verbatim_doc_comment, long, value_name = "TOL", value_parser = number(1e-16..=0.2, ""))]
     pub tolerance: Option<f64>,
 }
 
+/// Choice of the method that integrates a motion.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum MethodChoice {
+    /// The method of [`Method::for_model`].
+    Auto,
+    /// This method.
+    Given(Method),
+}
+
+impl FromStr for MethodChoice {
+    type Err = UnknownMethod;
+
+    fn from_str(name: &str) -> Result<Self, UnknownMethod> {
+        match name.eq_ignore_ascii_case("auto") {
+            true => Ok(Self::Auto),
+            false => name.parse().map(Self::Given),
+        }
+    }
+}
+
 impl MethodArguments {
     /// Names of the options.
     pub const OPTIONS: [&str; 2] = ["method", "tolerance"];
 
-    /// Returns the integration method with its tolerance or step.
-    pub fn integrator(&self) -> AnyIntegrator<f64> {
-        self.method.with(self.setting())
+    /// Tolerance of one step by default.
+    const TOLERANCE: f64 = 1e-10;
+
+    /// Returns the method that integrates the motions of a tree.
+    pub fn method(&self, tree: &PendulumTree) -> Method {
+        match self.method {
+            MethodChoice::Given(method) => method,
+            MethodChoice::Auto => {
+                let tolerance = self.tolerance.unwrap_or(Self::TOLERANCE);
+                Method::for_model(&AbsoluteAngles(tree), tolerance)
+            }
+        }
     }
 
-    /// Returns the tolerance of the method, or its step length in s.
-    pub fn setting(&self) -> f64 {
-        let usual = if self.method.is_adaptive() {
-            1e-10
+    /// Returns the tolerance of a method, or its step length in s.
+    pub fn setting(&self, method: Method) -> f64 {
+        let usual = if method.is_adaptive() {
+            Self::TOLERANCE
         } else {
             1e-3
         };
@@ -61,7 +98,8 @@ pub fn sample(
     start: &State<f64>,
     times: Vec<f64>,
 ) -> Result<SampledMotion, Failure> {
-    let method = arguments.integrator();
+    let method = arguments.method(&subject.tree);
+    let method = method.with(arguments.setting(method));
     let system = AbsoluteAngles(&subject.tree);
     let mut states = Vec::with_capacity(times.len());
     let visit = |_: f64, state: &[f64]| states.push(state.to_vec());
@@ -88,11 +126,12 @@ pub fn horizon(
     samples: &SampledMotion,
     precisions: &[f64],
 ) -> Result<Horizon<f64>, Failure> {
-    let finer = arguments.method.finer(arguments.setting());
+    let method = arguments.method(&subject.tree);
+    let finer = method.finer(arguments.setting(method));
     let links = subject.tree.links();
     let angles = samples.states.iter().map(|state| &state[..links]);
     let system = AbsoluteAngles(&subject.tree);
-    let method = arguments.method.with(finer);
+    let method = method.with(finer);
     Horizon::find(&method, &system, start, &samples.times, angles, precisions)
         .map_err(|error| Failure::Motion(Box::new(error)))
 }

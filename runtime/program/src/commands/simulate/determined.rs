@@ -47,8 +47,9 @@ impl Determined {
         Some(error.max(1e-7))
     }
 
-    pub(super) fn in_words(&self, arguments: &Arguments) -> String {
-        let (setting, method) = (arguments.method.setting(), arguments.method.method);
+    pub(super) fn in_words(&self, arguments: &Arguments, subject: &Subject) -> String {
+        let method = arguments.method.method(&subject.tree);
+        let setting = arguments.method.setting(method);
         let finer = match method.is_adaptive() {
             true => format!("a tolerance of {:e}", method.finer(setting)),
             false => format!("steps of {} s", method.finer(setting)),

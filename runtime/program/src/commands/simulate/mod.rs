@@ -95,7 +95,7 @@ pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
     job.print(&ends(&subject, &samples, determined.as_ref()))?;
     job.print(&subject.unstable_release(&start).unwrap_or_default())?;
     if let Some(determined) = &determined {
-        job.print(&determined.in_words(arguments))?;
+        job.print(&determined.in_words(arguments, &subject))?;
         job.report("precision (deg)", arguments.precision);
         job.report("determined until (s)", determined.until);
     }
@@ -200,7 +200,7 @@ fn report(
         "{}: {} s with {}, {}\n",
         subject.name,
         arguments.duration,
-        arguments.method.method.title(),
+        arguments.method.method(&subject.tree).title(),
         samples.report
     );
     let powers = energies.friction_power.iter().chain(&energies.drive_power);
