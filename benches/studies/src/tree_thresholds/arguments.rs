@@ -41,6 +41,10 @@ pub struct Arguments {
         value_parser = number(1e-12..=1e-3, "")
     )]
     pub tolerance: f64,
+    /// predicts growth by resonant normal forms in place of the scan, up to the angle at which a
+    /// release is refused, and simulates its rate
+    #[arg(verbatim_doc_comment, long, conflicts_with_all = ["angles", "level", "tolerance"])]
+    pub theory: bool,
 }
 
 impl branched_pendulum_frame::Arguments for Arguments {

@@ -3,10 +3,12 @@
 //!
 //! - [`arguments`]: the command line,
 //! - [`trees`]: the trees and their thresholds,
+//! - [`theory`]: growth that the normal form predicts in them,
 //! - [`chart`]: the chart.
 
 pub mod arguments;
 pub mod chart;
+pub mod theory;
 pub mod trees;
 
 use std::fmt::Write;
@@ -34,6 +36,9 @@ pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
                 }));
             }
         }
+    }
+    if arguments.theory {
+        return theory::run(&rules, job);
     }
     let progress = job.progress(rules.len());
     progress.begin("trees");

@@ -5,6 +5,7 @@ use branched_pendulum::prelude::*;
 use branched_pendulum::system::TransverseOde;
 use branched_pendulum_frame::command_line::parse_line;
 use branched_pendulum_studies::tree_thresholds::Arguments;
+use branched_pendulum_studies::tree_thresholds::theory::predicted;
 use branched_pendulum_studies::tree_thresholds::trees::{Rule, Three, ThreeParameters, threshold};
 
 /// Three rods on each.
@@ -56,4 +57,29 @@ fn copies_count_by_their_mass() {
     assert!(found.angle_deg.is_some_and(|angle| angle > 20.0));
     let ratio = one.factors[0].value / other.factors[0].value;
     assert!((ratio - 1.0).abs() < 1e-6, "{one:?} {other:?}");
+}
+
+/// Theory finds a tongue at a fifth of the scan's threshold, and simulation has its rate.
+#[test]
+fn theory_finds_slow_growth() {
+    let found = predicted(Rule {
+        generations: 3,
+        copies: 2,
+        mass_ratio: 0.5,
+        length_ratio: 0.7,
+    });
+    let found = found.unwrap();
+    assert!(
+        found.limit_deg > 8.0 && found.refusal.is_some(),
+        "{found:?}"
+    );
+    let [(tongue, simulated)] = found.tongues.as_slice() else {
+        panic!("{found:?}");
+    };
+    assert!(tongue.at > 4.0 && tongue.at < 8.0);
+    let rate = tongue.largest.growth_rate;
+    assert!(
+        (rate.value - simulated).abs() < rate.error(),
+        "{rate:?} {simulated}"
+    );
 }
