@@ -176,7 +176,7 @@ def test_a_stepper_is_freed_with_what_it_holds():
     try:
         for torques in [None, [0.1], lambda t, y: [0.0]]:
             marker = Marker()
-            stepper = bp.Tree(ROD, c=0.0).stepper([0.1, 0.0], torques=lambda t, y: [0.0 if marker else 1.0])
+            stepper = bp.Tree(ROD, c=0.0).stepper([0.1, 0.0], torques=lambda t, y, kept=marker: [0.0 if kept else 1.0])
             gone = weakref.ref(marker)
             del marker
             stepper.advance(0.1)
