@@ -177,8 +177,9 @@ const MOST_LINES: usize = 8;
 #[cfg(test)]
 mod tests {
     use super::along;
-    use crate::motion::{MethodArguments, MethodChoice, sample};
+    use crate::motion::{MethodArguments, sample};
     use crate::subject::{Subject, TreeArguments};
+    use branched_pendulum::integrate::MethodChoice;
     use branched_pendulum::prelude::*;
     use branched_pendulum::system::Workspace;
     use branched_pendulum::transfer::{

@@ -1,8 +1,6 @@
 //! Motion of a tree, integrated and sampled.
 
-use std::str::FromStr;
-
-use branched_pendulum::integrate::{Horizon, Report, UnknownMethod};
+use branched_pendulum::integrate::{Horizon, MethodChoice, Report};
 use branched_pendulum::prelude::*;
 use branched_pendulum_trees::PendulumTree;
 
@@ -28,26 +26,6 @@ pub struct MethodArguments {
     pub tolerance: Option<f64>,
 }
 
-/// Choice of the method that integrates a motion.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum MethodChoice {
-    /// The method of [`Method::for_model`].
-    Auto,
-    /// This method.
-    Given(Method),
-}
-
-impl FromStr for MethodChoice {
-    type Err = UnknownMethod;
-
-    fn from_str(name: &str) -> Result<Self, UnknownMethod> {
-        match name.eq_ignore_ascii_case("auto") {
-            true => Ok(Self::Auto),
-            false => name.parse().map(Self::Given),
-        }
-    }
-}
-
 impl MethodArguments {
     /// Names of the options.
     pub const OPTIONS: [&str; 2] = ["method", "tolerance"];
@@ -57,13 +35,10 @@ impl MethodArguments {
 
     /// Returns the method that integrates the motions of a tree.
     pub fn method(&self, tree: &PendulumTree) -> Method {
-        match self.method {
-            MethodChoice::Given(method) => method,
-            MethodChoice::Auto => {
-                let tolerance = self.tolerance.unwrap_or(Self::TOLERANCE);
-                Method::for_model(&AbsoluteAngles(tree), tolerance)
-            }
-        }
+        self.method.method(|| {
+            let tolerance = self.tolerance.unwrap_or(Self::TOLERANCE);
+            Method::for_model(&AbsoluteAngles(tree), tolerance)
+        })
     }
 
     /// Returns the tolerance of a method, or its step length in s.

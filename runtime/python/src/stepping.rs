@@ -1,14 +1,11 @@
 //! Integration methods selected by name, with their tolerances and steps.
 
-use branched_pendulum::integrate::{AnyIntegrator, Method, Options, Tolerance};
+use branched_pendulum::integrate::{AnyIntegrator, Method, MethodChoice, Options, Tolerance};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
 use crate::arrays::{Numbers, whole};
 use crate::memory::shown;
-
-/// Name that leaves the choice of the method to the program.
-const AUTOMATIC: &str = "auto";
 
 /// An integration method selected by name, with its tolerances or step length.
 pub(crate) struct Stepping<'a, 'py> {
@@ -26,17 +23,17 @@ pub(crate) struct Stepping<'a, 'py> {
 impl Stepping<'_, '_> {
     /// Returns the method, chosen by name or, for `auto`, by the program.
     pub(crate) fn method(&self) -> PyResult<Method> {
-        if self.method.eq_ignore_ascii_case(AUTOMATIC) {
-            return match self.step {
-                None => Ok(self.automatic),
-                Some(_) => Err(PyValueError::new_err(
-                    "step= belongs to a method with steps of one length: give method=\"rk4\" or \
-                     \"gauss2\" to \"gauss8\" with it",
-                )),
-            };
+        let choice: MethodChoice = self
+            .method
+            .parse()
+            .map_err(|error| PyValueError::new_err(format!("method: {error}")))?;
+        if choice == MethodChoice::Auto && self.step.is_some() {
+            return Err(PyValueError::new_err(
+                "step= belongs to a method with steps of one length: give method=\"rk4\" or \
+                 \"gauss2\" to \"gauss8\" with it",
+            ));
         }
-        let method = self.method.parse();
-        method.map_err(|error| PyValueError::new_err(format!("method: {error}")))
+        Ok(choice.method(|| self.automatic))
     }
 
     /// Returns the method with a tighter tolerance or shorter step, for comparison.

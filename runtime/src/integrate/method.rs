@@ -102,53 +102,7 @@ methods! {
 /// Tolerance below which the Taylor method uses compensated sums.
 const COMPENSATED_BELOW: f64 = 1e-12;
 
-/// Largest number of components of a state for which Taylor series are the fastest at any tolerance:
-/// ten links.
-const SMALL_STATE: usize = 20;
-
-/// Largest number of components for which they are the fastest at 1e-6 and below: a hundred links.
-/// Larger states take them below 1e-9 only.
-const LARGE_STATE: usize = 200;
-
 impl Method {
-    /// Returns the method that usually takes the least time for one motion of this system at a
-    /// relative tolerance.
-    ///
-    /// The choice is [`Taylor`] if the system has Taylor series and is small enough for the
-    /// tolerance: up to 20 components at any tolerance, up to 200 at 1e-6 and below, any number below
-    /// 1e-9. Otherwise it is that of [`for_lanes`](Self::for_lanes). The limits come from the tables of
-    /// `docs/integrators.md`; `branched-pendulum advise` measures the candidates on one machine. The
-    /// choice does not consider stiff systems, which need [`Gauss`].
-    ///
-    /// # Examples
-    ///
-    /// ```
-    /// use branched_pendulum::integrate::Method;
-    /// use branched_pendulum::system::{OdeFn, RatesOnly};
-    ///
-    /// let decay = OdeFn::new(1, |_time: f64, y: &[f64], rates: &mut [f64]| rates[0] = -y[0]);
-    /// assert_eq!(Method::for_model(&RatesOnly(&decay), 1e-9), Method::Verner98);
-    /// assert_eq!(Method::for_model(&RatesOnly(&decay), 1e-3), Method::Dop853);
-    /// ```
-    pub fn for_model<T>(system: &(impl TaylorOde<T> + ?Sized), tolerance: f64) -> Self {
-        let size = system.dimension();
-        let series =
-            size <= SMALL_STATE || size <= LARGE_STATE && tolerance <= 1e-6 || tolerance < 1e-9;
-        match system.has_series() && series {
-            true => Self::Taylor,
-            false => Self::for_lanes(tolerance),
-        }
-    }
-
-    /// Returns the method that usually takes the least time for many motions that are integrated
-    /// in the lanes of vector registers: [`Dop853`] at 1e-4 and above, and [`Verner98`] below.
-    pub fn for_lanes(tolerance: f64) -> Self {
-        match tolerance >= 1e-4 {
-            true => Self::Dop853,
-            false => Self::Verner98,
-        }
-    }
-
     /// Returns the Rust expression that builds this method like [`Method::with`], for the scalar
     /// type named `scalar`: `Dop853::new(Options::with_tolerance(1e-10))`.
     #[must_use]

@@ -21,6 +21,7 @@
 //! carries the last good state.
 
 mod checkpoint;
+mod choice;
 mod control;
 mod dense;
 mod error;
@@ -47,6 +48,7 @@ mod taylor;
 mod trajectory;
 
 pub use checkpoint::Checkpoint;
+pub use choice::{MethodChoice, UnknownChoice};
 pub use dense::{DenseError, DenseStep};
 pub use error::{InputError, IntegrationError, RunError};
 pub use events::{Crossing, Event, Occurrence};
