@@ -40,29 +40,21 @@ impl Resonance {
     /// Returns all resonances of order 4 that let differences grow: two frequencies of modes in phase
     /// and two of differences.
     pub(super) fn of_growth(in_phase: usize, differences: usize) -> Vec<Self> {
-        let pairs = |count: usize, signs: &'static [i32]| {
-            let pairs = (0..count).flat_map(move |i| (i..count).map(move |j| (i, j)));
-            pairs.flat_map(move |(i, j)| {
-                signs.iter().map(move |sign| {
-                    let mut multiples = vec![0; count];
-                    multiples[i] += 1;
-                    multiples[j] += sign;
-                    multiples
-                })
-            })
-        };
-        let all = pairs(differences, &[1]).flat_map(|own| {
-            let own: Vec<i32> = own.iter().map(|n| -n).collect();
-            pairs(in_phase, &[1, -1]).flat_map(move |both| {
-                let opposite: Vec<i32> = both.iter().map(|n| -n).collect();
-                let differences = own.clone();
-                [both, opposite].map(|in_phase| Self {
-                    in_phase,
-                    differences: differences.clone(),
-                })
-            })
-        });
-        all.filter(|own| own.order() == 4).collect()
+        let mut all = Vec::new();
+        for driven in pairs(differences, 1) {
+            let same = pairs(in_phase, 1);
+            let opposite = pairs(in_phase, -1);
+            for driving in same.into_iter().chain(opposite) {
+                for sign in [1, -1] {
+                    all.push(Self {
+                        in_phase: driving.iter().map(|n| sign * n).collect(),
+                        differences: driven.iter().map(|n| -n).collect(),
+                    });
+                }
+            }
+        }
+        all.retain(|own| own.order() == 4);
+        all
     }
 
     /// Returns all multiples.
@@ -113,6 +105,20 @@ impl Resonance {
             false => ResonanceKind::Growth,
         }
     }
+}
+
+/// Returns the multiples e_i + `sign` e_j of `count` frequencies, for each pair i ≤ j.
+fn pairs(count: usize, sign: i32) -> Vec<Vec<i32>> {
+    let mut pairs = Vec::new();
+    for i in 0..count {
+        for j in i..count {
+            let mut multiples = vec![0; count];
+            multiples[i] += 1;
+            multiples[j] += sign;
+            pairs.push(multiples);
+        }
+    }
+    pairs
 }
 
 impl fmt::Display for Resonance {
