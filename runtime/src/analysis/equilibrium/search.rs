@@ -86,9 +86,9 @@ pub fn stable_equilibrium(
 /// Finds stable equilibria: first the one to which the energy descends from zero angles, then
 /// others by ascending energy. For at most 32 angles it also descends from 16 to 64 random starts,
 /// and for any number of angles from the saddle near zero in both directions. Minima with small
-/// basins of attraction may be missed. Of neutral equilibria with equal energies, which form a
-/// continuum, the first one found is listed. Last comes the unstable equilibrium that Newton's
-/// method finds from zero angles, if it finds one.
+/// basins of attraction may be missed. Of neutral equilibria with equal energies, which usually form
+/// one continuum, only the first one found is listed. Last comes the unstable equilibrium that
+/// Newton's method finds from zero angles, if it finds one.
 ///
 /// # Errors
 ///
