@@ -240,12 +240,16 @@ fn report(all: &[Predicted]) -> String {
                 false => format!("{:.2}°", tongue.edges[side].value),
             });
             let rate = tongue.largest.growth_rate;
+            let simulated = match simulated.is_finite() {
+                true => format!("{simulated:.4}"),
+                false => "not determined".to_owned(),
+            };
             let resonance = tongue
                 .resonance()
                 .map_or(String::new(), ToString::to_string);
             let _ = writeln!(
                 text,
-                "  {from} to {to}: {:.4} ± {:.4} 1/s at {:.1}°, by simulation {simulated:.4}, {resonance}",
+                "  {from} to {to}: {:.4} ± {:.4} 1/s at {:.1}°, by simulation {simulated}, {resonance}",
                 rate.value,
                 rate.error(),
                 tongue.at
