@@ -18,11 +18,12 @@ impl Method {
     /// Returns the method that usually takes the least time for one motion of this system at a
     /// relative tolerance.
     ///
-    /// The choice is [`Taylor`] if the system has Taylor series and is small enough for the
-    /// tolerance: up to 20 components at any tolerance, up to 200 at 1e-6 and below, any number below
-    /// 1e-9. Otherwise it is that of [`for_lanes`](Self::for_lanes). The limits come from the tables of
-    /// `docs/integrators.md`; `branched-pendulum advise` measures the candidates on one machine. The
-    /// choice does not consider stiff systems, which need [`Gauss`].
+    /// The choice is [`Taylor`](super::Taylor) if the system has Taylor series and is small enough
+    /// for the tolerance: up to 20 components at any tolerance, up to 200 at 1e-6 and below, any
+    /// number below 1e-9. Otherwise it is that of [`for_lanes`](Self::for_lanes). The limits come
+    /// from the tables of `docs/integrators.md`; `branched-pendulum advise` measures the candidates
+    /// on one machine. The choice does not consider stiff systems, which need
+    /// [`Gauss`](super::Gauss).
     ///
     /// # Examples
     ///
@@ -45,7 +46,8 @@ impl Method {
     }
 
     /// Returns the method that usually takes the least time for many motions that are integrated
-    /// in the lanes of vector registers: [`Dop853`] at 1e-4 and above, and [`Verner98`] below.
+    /// in the lanes of vector registers: [`Dop853`](super::Dop853) at 1e-4 and above, and
+    /// [`Verner98`](super::Verner98) below.
     pub fn for_lanes(tolerance: f64) -> Self {
         match tolerance >= 1e-4 {
             true => Self::Dop853,
