@@ -10,7 +10,7 @@ pub use crate::requirements::{
 pub use crate::scalar::SinCosPairs;
 pub use crate::simd::{Part, Simd, outlined};
 pub use crate::system::positions::{
-    arrays, fill, no_answer, properties, unknown, write, write_both,
+    arrays, fill, no_answer, properties, unknown, write, write_each,
 };
 pub use crate::system::{WholeMotion, WholeOrbit};
 

@@ -136,6 +136,9 @@ impl Emission<'_> {
                 String::new(),
                 "Their power is Q·ω. The cost is O(links) if that of the accelerations is (Featherstone, Rigid Body Dynamics Algorithms, 2008, chapter 5).".into(),
             ],
+            Purpose::AccelerationsPullback => self.pullback_meaning(Purpose::Accelerations),
+            Purpose::AccelerationsUnderPullback => self.pullback_meaning(Purpose::AccelerationsUnder),
+            Purpose::Gradient(of) => self.gradient_meaning(of),
             Purpose::TaylorCoefficients => self.taylor_meaning(),
             Purpose::ToSymmetric => fixed([
                 "Converts absolute angles (in rad) to symmetric coordinates (means and differences of copies), or angular velocities (in rad/s) to their velocities.",
@@ -303,6 +306,7 @@ fn argument_meaning(argument: Argument) -> Option<&'static str> {
         Argument::AbsoluteMomenta | Argument::Momenta => Some("`momenta` (in kg m²/s)"),
         Argument::Torques => Some("`torques` (in N m)"),
         Argument::SmallTorques => Some("`difference_torques` (in N m)"),
+        Argument::Adjoint => Some("weights `adjoint`"),
         Argument::Prescribed(_) => Some("accelerations `prescribed` (in rad/s²)"),
         Argument::Forces
         | Argument::Absolute

@@ -134,6 +134,9 @@ impl Emission<'_> {
             | Purpose::AbsoluteVelocities
             | Purpose::AccelerationsUnder
             | Purpose::InverseDynamics
+            | Purpose::AccelerationsPullback
+            | Purpose::AccelerationsUnderPullback
+            | Purpose::Gradient(_)
             | Purpose::TransverseMotion(_)
             | Purpose::Prescribed(_)
             | Purpose::OutsidePower

@@ -78,6 +78,7 @@ impl Emission<'_> {
             | Argument::Momenta
             | Argument::Forces
             | Argument::Alpha
+            | Argument::Adjoint
             | Argument::Torques
             | Argument::Absolute
             | Argument::Symmetric => self.scene.links.len(),
@@ -301,6 +302,7 @@ impl Emission<'_> {
             | Argument::Rates
             | Argument::Momenta
             | Argument::Alpha
+            | Argument::Adjoint
             | Argument::Actions
             | Argument::Difference(_)
             | Argument::DifferenceRate(_)

@@ -23,6 +23,7 @@ mod observables;
 mod parts;
 mod positions;
 mod prescribed;
+mod pullback;
 mod quantities;
 mod shapes;
 mod shown;

@@ -18,6 +18,7 @@ pub(super) fn argument_type(argument: Argument, length: &TokenStream) -> TokenSt
         | Argument::Rates
         | Argument::Momenta
         | Argument::Alpha
+        | Argument::Adjoint
         | Argument::Actions
         | Argument::Difference(_)
         | Argument::DifferenceRate(_)
@@ -58,9 +59,9 @@ pub(super) fn result_type(
             let (row, rows) = (array(columns), length(rows));
             quote!([#row; #rows])
         }
-        ResultShape::Arrays(first, second) => {
-            let (first, second) = (array(first), array(second));
-            quote!((#first, #second))
+        ResultShape::Arrays(lengths) => {
+            let arrays = lengths.into_iter().flatten().map(array);
+            quote!((#(#arrays),*))
         }
         ResultShape::Split(first) => {
             let rest = array(outputs - first);
@@ -90,9 +91,14 @@ impl Emission<'_> {
                 let rows = values.chunks(length).map(|row| quote!([#(#row),*]));
                 quote!([#(#rows),*])
             }
-            ResultShape::Arrays(first, _) => {
-                let (first, second) = values.split_at(first);
-                quote!(([#(#first),*], [#(#second),*]))
+            ResultShape::Arrays(lengths) => {
+                let mut rest = values.as_slice();
+                let arrays = lengths.into_iter().flatten().map(|length| {
+                    let (array, others) = rest.split_at(length);
+                    rest = others;
+                    quote!([#(#array),*])
+                });
+                quote!((#(#arrays),*))
             }
             ResultShape::Split(first) => match values.split_at(first) {
                 ([first], rest) => quote!((#first, [#(#rest),*])),

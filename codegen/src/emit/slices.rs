@@ -3,7 +3,7 @@
 
 use super::Emission;
 use super::tokens::ident;
-use crate::functions::{Argument, Purpose};
+use crate::functions::{Argument, Purpose, ResultShape};
 use crate::program::Entry;
 use proc_macro2::{Ident, TokenStream};
 use quote::quote;
@@ -86,8 +86,8 @@ impl Emission<'_> {
     /// Emits code that calls a function with slices and writes its result, an array or a pair of
     /// arrays, to `outputs`.
     pub(super) fn fill(&self, outputs: &[&str], purpose: Purpose) -> TokenStream {
-        if let &[first, second] = outputs {
-            return self.fill_both([first, second], &quote!((first, second)), purpose);
+        if outputs.len() > 1 {
+            return self.fill_each(outputs, purpose);
         }
         let runtime = self.runtime();
         let names: Vec<Ident> = outputs.iter().map(|output| ident(output)).collect();
@@ -95,21 +95,23 @@ impl Emission<'_> {
         self.at_slices(purpose, write, self.unknown(outputs))
     }
 
-    /// Emits code that writes the two arrays returned by a function to two slices.
-    pub(super) fn fill_both(
-        &self,
-        outputs: [&str; 2],
-        pattern: &TokenStream,
-        purpose: Purpose,
-    ) -> TokenStream {
+    /// Emits code that writes the arrays returned by a function to as many slices. The function
+    /// returns rows of equal length, or a tuple.
+    pub(super) fn fill_each(&self, outputs: &[&str], purpose: Purpose) -> TokenStream {
         let runtime = self.runtime();
-        let names = outputs.map(ident);
+        let names: Vec<Ident> = outputs.iter().map(|output| ident(output)).collect();
+        let arrays = ["first", "second", "third", "fourth"].map(ident);
+        let arrays = &arrays[..outputs.len()];
+        let pattern = match self.entry(purpose).map(|entry| entry.shape) {
+            Some(ResultShape::Rows(..)) => quote!([#(#arrays),*]),
+            _ => quote!((#(#arrays),*)),
+        };
         let write = |call| {
             quote! {{
                 let #pattern = #call;
-                #runtime::emitted::write_both([#(#names),*], [&first, &second]);
+                #runtime::emitted::write_each([#(#names),*], [#(&#arrays),*]);
             }}
         };
-        self.at_slices(purpose, write, self.unknown(&outputs))
+        self.at_slices(purpose, write, self.unknown(outputs))
     }
 }

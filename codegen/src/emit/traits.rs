@@ -128,8 +128,7 @@ impl Emission<'_> {
     fn canonical(&self) -> TokenStream {
         let (name, runtime, links) = (&self.item.ident, self.runtime(), self.links());
         let rates = ["q_rates", "p_rates"];
-        let pattern = quote!([first, second]);
-        let body = self.fill_both(rates, &pattern, Purpose::CanonicalRates);
+        let body = self.fill(&rates, Purpose::CanonicalRates);
         let time = self.time_name();
         quote! {
             impl<T: #runtime::Scalar> #runtime::Canonical<T> for #name<T> {

@@ -1,8 +1,8 @@
 //! List of all functions and methods that a model may have.
 
 use super::{
-    CANONICAL, Cause, Counting, EnergyDefinition, EntryState, Naming, NormalFormFunction,
-    ObservableForm, PointKind, Purpose,
+    CANONICAL, Cause, Counting, Differentiated, EnergyDefinition, EntryState, Naming,
+    NormalFormFunction, ObservableForm, PointKind, Purpose,
 };
 use std::ops::RangeInclusive;
 
@@ -58,6 +58,8 @@ impl Naming {
                 P::TransverseFriction(sector, true),
             ]);
         }
+        let differentiated = all.clone().into_iter().filter_map(Differentiated::of);
+        all.extend(differentiated.map(P::Gradient));
         for observable in 0..self.observables.len() {
             all.extend(ObservableForm::ALL.map(|form| P::Observable(observable, form)));
         }

@@ -2,6 +2,8 @@
 
 mod argument;
 mod catalogue;
+mod derivatives;
+mod differentiated;
 mod forms;
 mod naming;
 mod of_link;
@@ -9,6 +11,7 @@ mod purpose;
 
 pub use argument::{Argument, ResultShape};
 pub use catalogue::is_method;
+pub use differentiated::Differentiated;
 pub(crate) use forms::CANONICAL;
 pub use forms::{
     Cause, Counting, EnergyDefinition, EntryState, LINK_PROPERTIES, NormalFormFunction,

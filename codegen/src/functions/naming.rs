@@ -43,6 +43,8 @@ pub struct Naming {
     pub damped_by_angle: bool,
     /// Number of links.
     pub links: usize,
+    /// Number of parameters.
+    pub parameters: usize,
     /// Number of sectors.
     pub sectors: usize,
     /// Endings of the names of functions of one difference, one per transfer.
@@ -64,6 +66,7 @@ impl Naming {
             driven: false,
             damped_by_angle: false,
             links: 0,
+            parameters: 0,
             sectors: 0,
             places: vec![star()],
             prescribed: vec![(star(), 0)],
@@ -71,4 +74,13 @@ impl Naming {
             transverse: vec![star()],
         }
     }
+}
+
+/// Returns the shape of a result of at most four arrays with these lengths.
+pub(super) fn arrays(lengths: impl IntoIterator<Item = usize>) -> ResultShape {
+    let mut all = [None; 4];
+    for (place, length) in all.iter_mut().zip(lengths) {
+        *place = Some(length);
+    }
+    ResultShape::Arrays(all)
 }

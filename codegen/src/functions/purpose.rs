@@ -6,11 +6,12 @@ use super::Argument::{
     DifferenceRate, Forces, Given, Motion, Omega, Rates, SmallDifferences, SmallRates,
     SmallTorques, Symmetric, Theta, Time, Torques,
 };
-use super::ResultShape::{Arrays, Budget, Rows, Scalar, Transfer, Transfers, Vector};
+use super::ResultShape::{Budget, Rows, Scalar, Transfer, Transfers, Vector};
+use super::naming::arrays;
 use super::{
-    BodyFunction, CANONICAL, Cause, Counting, EnergyDefinition, EntryState, LINK_PROPERTIES,
-    LinkFunction, Naming, NormalFormFunction, ObservableForm, PointKind, ResultShape,
-    ScaleFunction, Signature, SliceFunction,
+    BodyFunction, CANONICAL, Cause, Counting, Differentiated, EnergyDefinition, EntryState,
+    LINK_PROPERTIES, LinkFunction, Naming, NormalFormFunction, ObservableForm, PointKind,
+    ResultShape, ScaleFunction, Signature, SliceFunction,
 };
 
 /// Declares the purposes, each with the signature of its function, in which `$naming` provides
@@ -105,11 +106,21 @@ purposes! { naming:
         let (name, count) = &naming.prescribed[set];
         let arguments = [Theta, Omega, Torques, Argument::Prescribed(set)];
         let name = format!("accelerations_prescribed_{name}");
-        naming.timed(name, &arguments, Arrays(naming.links, *count))
+        naming.timed(name, &arguments, arrays([naming.links, *count]))
     }, computes AccelerationsOfHeldLinks[set] -> [alpha, reactions];
     /// Torques Q (N m) that a given motion needs, from θ, ω and θ̈.
     InverseDynamics => naming.timed("inverse_dynamics", &[Theta, Omega, Alpha], Vector),
         computes InverseDynamics -> [torques];
+    /// Derivatives of a weighted sum of the accelerations by θ, ω and parameters.
+    AccelerationsPullback => naming.pullback(Purpose::Accelerations),
+        computes AccelerationsPullback -> [theta_adjoint, omega_adjoint, parameters_adjoint];
+    /// Derivatives of a weighted sum of the accelerations under external torques by θ, ω, torques
+    /// and parameters.
+    AccelerationsUnderPullback => naming.pullback(Purpose::AccelerationsUnder),
+        computes AccelerationsUnderTorquesPullback
+            -> [theta_adjoint, omega_adjoint, torques_adjoint, parameters_adjoint];
+    /// Derivatives of a function with one number as its result, by its arguments and parameters.
+    Gradient(of: Differentiated) => naming.gradient(of);
     /// Taylor coefficients of θ and ω in time. The program computes order 0 of the recurrences: θ̈,
     /// and the sines and cosines.
     TaylorCoefficients => naming.timed("taylor_coefficients", &[Theta, Omega], Vector);

@@ -187,6 +187,45 @@ impl Setup {
         })
     }
 
+    /// Returns the derivative of a constant by a parameter of the scene, as a constant.
+    pub(super) fn derivative(&mut self, id: ConstantId, parameter: usize) -> ConstantId {
+        let definition = self.get(id);
+        if definition.exact.is_some() {
+            return self.number(Rational::from(0));
+        }
+        match definition.op.clone() {
+            ConstantOp::Number(_) => self.number(Rational::from(0)),
+            ConstantOp::Parameter(index) => {
+                self.number(Rational::from(i64::from(index == parameter)))
+            }
+            ConstantOp::Named(_, a) | ConstantOp::Called(a) => self.derivative(a, parameter),
+            ConstantOp::Add(a, b) => {
+                let (a, b) = (self.derivative(a, parameter), self.derivative(b, parameter));
+                self.add(a, b)
+            }
+            ConstantOp::Sub(a, b) => {
+                let (a, b) = (self.derivative(a, parameter), self.derivative(b, parameter));
+                self.sub(a, b)
+            }
+            ConstantOp::Product(_, powers) => {
+                // The derivative of a product f is f Σ n c′/c over its factors cⁿ.
+                let mut sum = self.number(Rational::from(0));
+                for (base, power) in powers {
+                    let slope = self.derivative(base, parameter);
+                    if self.as_number(slope).is_some_and(|slope| slope.is_zero()) {
+                        continue;
+                    }
+                    let power = self.number(Rational::from(i64::from(power)));
+                    let without = self.div(id, base);
+                    let share = self.mul(power, without);
+                    let share = self.mul(share, slope);
+                    sum = self.add(sum, share);
+                }
+                sum
+            }
+        }
+    }
+
     fn combine(&mut self, a: ConstantId, b: ConstantId, exponent: i32) -> ConstantId {
         let (number_a, mut powers) = self.as_product(a);
         let (number_b, powers_b) = self.as_product(b);

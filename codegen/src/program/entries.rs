@@ -61,6 +61,7 @@ pub(super) fn entries(scene: &Scene, lowering: &mut Lowering<'_>) -> Lowered {
     if scene.requests.taylor {
         list.taylor(scene, mechanics);
     }
+    list.pullbacks(scene);
     (list.entries, choice, None)
 }
 

@@ -58,6 +58,7 @@ impl Naming {
                 .iter()
                 .any(|own| !own.friction.is_zero()),
             links: scene.links.len(),
+            parameters: scene.parameters.len(),
             sectors: mechanics
                 .sectors
                 .as_ref()

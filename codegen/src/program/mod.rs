@@ -33,6 +33,7 @@ mod pair;
 mod pass;
 mod passes;
 mod positions;
+mod pullback;
 mod rebuild;
 mod rotations;
 mod rounding;

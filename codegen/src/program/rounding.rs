@@ -187,6 +187,7 @@ impl Sample {
             }
             Argument::Forces
             | Argument::Alpha
+            | Argument::Adjoint
             | Argument::Actions
             | Argument::Difference(_)
             | Argument::DifferenceRate(_)

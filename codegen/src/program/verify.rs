@@ -109,7 +109,9 @@ impl Program {
                 ResultShape::Scalar => entry.outputs.len() == 1,
                 ResultShape::Vector => !entry.outputs.is_empty(),
                 ResultShape::Rows(rows, length) => entry.outputs.len() == rows * length,
-                ResultShape::Arrays(first, second) => entry.outputs.len() == first + second,
+                ResultShape::Arrays(lengths) => {
+                    entry.outputs.len() == lengths.into_iter().flatten().sum::<usize>()
+                }
                 ResultShape::Split(first) => (1..entry.outputs.len()).contains(&first),
                 ResultShape::Transfer => entry.outputs.len() == 2,
                 ResultShape::Transfers(count) => entry.outputs.len() == 2 * count,

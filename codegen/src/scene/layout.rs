@@ -198,6 +198,7 @@ fn unlooped(templates: &[Template], asked: &RequestedOutputs<'_>) -> Option<Stri
         (requests.transfer.is_some(), "`emit(transfer)`"),
         (exact_or_truncated, "`emit(budget)`"),
         (asked.resolved.acting.is_some(), "`emit(small)`"),
+        (requests.gradient.is_some(), "`emit(gradient)`"),
         (asked.observables, "`observe(…)`"),
         (factorization, "`solve = factorization`"),
         (templates.len() < 2, "a single generation"),

@@ -22,6 +22,7 @@ mod chords;
 pub mod coordinates;
 mod drive;
 mod expand;
+mod gradient;
 mod layout;
 mod line_potential;
 mod line_properties;
@@ -60,6 +61,7 @@ mod transverse;
 mod tree_reader;
 mod unequal;
 mod values;
+mod written_forms;
 
 pub use chords::DescribedChordSpring;
 pub use coordinates::{Coordinate, CoordinateKind};
@@ -73,7 +75,7 @@ pub use names::is_keyword;
 pub use observed::{
     CoordinateIndex, Function, Observable, Observed, ObservedAtom, Variable, VariableKind,
 };
-pub use outputs::{BudgetRequest, Requests, Solve, TransferRequest};
+pub use outputs::{BudgetRequest, GradientRequest, Requests, Solve, TransferRequest};
 pub use passive::{FrictionContact, FrictionLaw, PassiveTorques};
 pub use quantity::{Quantity, QuantityAtom};
 pub use rational_expression::RationalExpression;

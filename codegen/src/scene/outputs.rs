@@ -1,5 +1,7 @@
 //! Requested outputs.
 
+use super::Observable;
+use crate::functions::{Differentiated, Purpose};
 use crate::named_members::named_members;
 
 named_members! {
@@ -105,6 +107,8 @@ requests! {
         /// Energies of all sectors (means, and each difference between copies) and the transfers
         /// between them.
         budget: Option<BudgetRequest>;
+        /// Functions of which derivatives by arguments and parameters are requested.
+        gradient: Option<GradientRequest>;
         /// Indices of the sectors (small differences between copies) that act back on the in-phase
         /// motion. Also sets `transverse`.
         small: Vec<usize>;
@@ -147,6 +151,47 @@ pub struct BudgetRequest {
     /// Sectors whose differences are treated as small in these expansions, each given by its group
     /// and the number of the difference. If the list is empty, all sectors are.
     pub small: Vec<(usize, usize)>,
+}
+
+/// Functions of which derivatives by arguments and parameters are requested; at least one.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct GradientRequest {
+    /// Accelerations, without and with external torques.
+    pub accelerations: bool,
+    /// Kinetic and potential energy.
+    pub energies: bool,
+    /// Energy of a difference, and all requested forms of the transfer into it.
+    pub transfer: bool,
+    /// Names of observables.
+    pub observables: Vec<String>,
+}
+
+impl GradientRequest {
+    /// Returns the purpose of the requested derivatives of a function; `None` if they are not
+    /// requested.
+    pub(crate) fn derivative(&self, observables: &[Observable], of: Purpose) -> Option<Purpose> {
+        match of {
+            Purpose::Accelerations => self.accelerations.then_some(Purpose::AccelerationsPullback),
+            Purpose::AccelerationsUnder => {
+                (self.accelerations).then_some(Purpose::AccelerationsUnderPullback)
+            }
+            _ => {
+                let of = Differentiated::of(of)?;
+                let wanted = match of {
+                    Differentiated::KineticEnergy | Differentiated::PotentialEnergy => {
+                        self.energies
+                    }
+                    Differentiated::SubHamiltonian(_)
+                    | Differentiated::TruncatedTransfer(..)
+                    | Differentiated::ExactTransfer(..) => self.transfer,
+                    Differentiated::Observable(number, _) => {
+                        self.observables.contains(&observables[number].name)
+                    }
+                };
+                wanted.then_some(Purpose::Gradient(of))
+            }
+        }
+    }
 }
 
 /// Requested forms of the energy transfer; at least one.

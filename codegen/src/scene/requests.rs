@@ -5,13 +5,15 @@ use std::ops::RangeInclusive;
 use proc_macro2::{Ident, Span};
 
 use super::expand::ExpandedTree;
+use super::gradient::gradient;
 use super::small_sectors::acting;
+use super::written_forms::{WrittenForm, written_forms};
 use super::{BudgetRequest, LinkId, Requests, TransferRequest};
-use crate::description::{Request, RequestForm};
+use crate::description::{ObservableClause, Request, RequestForm};
 use crate::report::{Faults, OutputMessage, UnequalUse, nearest};
 
 /// Outputs that may have forms in parentheses.
-const WITH_FORMS: [&str; 3] = ["transfer", "budget", "small"];
+const WITH_FORMS: [&str; 4] = ["transfer", "budget", "small", "gradient"];
 
 /// Names of all forms of the energy budget.
 const BUDGET_FORMS: &[&str] = &[
@@ -47,6 +49,8 @@ pub(super) struct Resolved {
     pub(super) normal_form: Option<Span>,
     /// Span of `transverse`.
     pub(super) transverse: Option<Span>,
+    /// Span of `gradient`.
+    gradient: Option<Span>,
     /// Span of the word `small`, and the names of the sectors (differences between copies) that act
     /// back on the in-phase motion.
     pub(super) acting: Option<(Span, Vec<Ident>)>,
@@ -55,7 +59,11 @@ pub(super) struct Resolved {
 }
 
 /// Reads the requests. Adds mistakes to `report`.
-pub(super) fn resolve_requests(requests: &[Request], report: &mut Faults) -> Resolved {
+pub(super) fn resolve_requests(
+    requests: &[Request],
+    observables: &[ObservableClause],
+    report: &mut Faults,
+) -> Resolved {
     let mut resolved = Resolved {
         requests: Requests::default(),
         symmetric: None,
@@ -64,9 +72,11 @@ pub(super) fn resolve_requests(requests: &[Request], report: &mut Faults) -> Res
         budget: None,
         normal_form: None,
         transverse: None,
+        gradient: None,
         acting: None,
         small: Vec::new(),
     };
+    let mut named = false;
     let mut seen: Vec<String> = Vec::new();
     for Request {
         name,
@@ -106,6 +116,12 @@ pub(super) fn resolve_requests(requests: &[Request], report: &mut Faults) -> Res
                 let mut orders = forms.iter().flatten().filter(|form| form.name != "exact");
                 resolved.transfer_order = orders.next().map(|form| form.name.span());
             }
+            "gradient" => {
+                let gradient = gradient(span, forms.as_deref(), *damaged, observables, report);
+                wanted.gradient = Some(gradient);
+                named = forms.is_some();
+                resolved.gradient = Some(span);
+            }
             "budget" => {
                 let small = &mut resolved.small;
                 wanted.budget = Some(budget(span, forms.as_deref(), *damaged, small, report));
@@ -121,8 +137,21 @@ pub(super) fn resolve_requests(requests: &[Request], report: &mut Faults) -> Res
         }
         seen.push(text);
     }
-    // The transfer and truncated budgets are expressed in canonical symmetric coordinates.
     let wanted = &mut resolved.requests;
+    // Without names, derivatives of all other requested outputs are requested.
+    if let Some(gradient) = &mut wanted.gradient {
+        match named {
+            true => wanted.energies |= gradient.energies,
+            false => gradient.energies = wanted.energies,
+        }
+        match (wanted.transfer.is_some(), resolved.gradient) {
+            (false, Some(span)) if named && gradient.transfer => {
+                report.error(span, OutputMessage::GradientOfNoTransfer);
+            }
+            (requested, _) => gradient.transfer &= requested,
+        }
+    }
+    // The transfer and truncated budgets are expressed in canonical symmetric coordinates.
     wanted.complete();
     let truncated = wanted
         .budget
@@ -133,42 +162,6 @@ pub(super) fn resolve_requests(requests: &[Request], report: &mut Faults) -> Res
         wanted.momenta = true;
     }
     resolved
-}
-
-/// A form in the parentheses after an output.
-struct WrittenForm<'f> {
-    text: String,
-    order: Option<u32>,
-    /// Span of the name.
-    span: Span,
-    /// Span of the value, or of the name if there is no value.
-    place: Span,
-    members: Option<&'f [Ident]>,
-}
-
-/// Returns the requested forms, each once. A form may be written several times with different
-/// orders.
-fn written_forms<'f>(forms: &'f [RequestForm], report: &mut Faults) -> Vec<WrittenForm<'f>> {
-    let mut written: Vec<WrittenForm<'f>> = Vec::new();
-    for form in forms {
-        let (text, span) = (form.name.to_string(), form.name.span());
-        let order = form.value.map(|value| value.count);
-        if written
-            .iter()
-            .any(|known| known.text == text && known.order == order)
-        {
-            report.error(span, OutputMessage::DuplicateRequest { name: text });
-            continue;
-        }
-        written.push(WrittenForm {
-            text,
-            order,
-            span,
-            place: form.value.map_or(span, |value| value.span),
-            members: form.members.as_deref(),
-        });
-    }
-    written
 }
 
 /// Reads a truncated form, `angle = n` or `amplitude = n`. Returns false if the form is another

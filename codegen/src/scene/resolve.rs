@@ -45,7 +45,7 @@ pub(super) fn resolve_scene(description: &Description, report: &mut Faults) -> O
     }
     let drive = resolve_drive(description.drive.as_ref(), &mut builder.values, report);
     let forces = forces_of_spring_dampers(&description.spring_dampers, &mut builder.values, report);
-    let mut resolved = resolve_requests(&description.requests, report);
+    let mut resolved = resolve_requests(&description.requests, &description.observables, report);
     resolved.requests.solve = resolve_solve(description.solve.as_ref(), report);
     resolved.requests.forces |= !description.prescribed.is_empty();
     if description.roots.len() > 1 {

@@ -30,6 +30,10 @@ pub fn resolve_at_run_time(description: &Description, report: &mut Faults) -> Op
             Some(Support::Everywhere | Support::RunTime) => {
                 request.forms.is_some() || !is_single(&request.name)
             }
+            None if request.name == "gradient" => {
+                refuse(&request.name, "emit(gradient)".to_owned());
+                false
+            }
             Some(Support::RunTimeCopies) | None => true,
             Some(Support::WrittenOut) => {
                 refuse(&request.name, format!("emit({})", request.name));

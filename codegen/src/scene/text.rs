@@ -4,9 +4,10 @@
 use std::fmt::{self, Display, Formatter};
 
 use super::{
-    BudgetRequest, DescribedTranslationalSpringDamper, Drive, Group, Layout, LineEnds, Lineage,
-    Link, NodeMotion, Observable, Offset, Orbit, Parameter, PassiveTorques, Quantity, Reduction,
-    Requests, Requirement, Scene, Sign, TransferRequest, WholeNode, WholeOrder,
+    BudgetRequest, DescribedTranslationalSpringDamper, Drive, GradientRequest, Group, Layout,
+    LineEnds, Lineage, Link, NodeMotion, Observable, Offset, Orbit, Parameter, PassiveTorques,
+    Quantity, Reduction, Requests, Requirement, Scene, Sign, TransferRequest, WholeNode,
+    WholeOrder,
 };
 
 impl Display for Scene {
@@ -272,6 +273,7 @@ impl Display for Requests {
             transfer,
             budget,
             small,
+            gradient,
             ..
         } = self;
         write!(f, "accelerations")?;
@@ -287,10 +289,35 @@ impl Display for Requests {
         if let Some(transfer) = transfer {
             write!(f, ", {transfer}")?;
         }
+        if let Some(gradient) = gradient {
+            write!(f, ", {gradient}")?;
+        }
         match budget {
             Some(budget) => write!(f, ", {budget}"),
             None => Ok(()),
         }
+    }
+}
+
+impl Display for GradientRequest {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let Self {
+            accelerations,
+            energies,
+            transfer,
+            observables,
+        } = self;
+        let flags = [
+            (accelerations, "accelerations"),
+            (energies, "energies"),
+            (transfer, "transfer"),
+        ];
+        let named = flags.iter().filter(|(wanted, _)| **wanted);
+        let named = named.map(|(_, name)| *name);
+        let names: Vec<&str> = named
+            .chain(observables.iter().map(String::as_str))
+            .collect();
+        write!(f, "gradient({})", names.join(", "))
     }
 }
 

@@ -57,6 +57,7 @@ impl Names {
             | Argument::Momenta
             | Argument::Forces
             | Argument::Alpha
+            | Argument::Adjoint
             | Argument::Actions
             | Argument::SmallDifferences
             | Argument::SmallRates

@@ -68,6 +68,20 @@ pub mod functions {
     }
 
     function! {
+        /// Derivatives of the sum Σ w_i α_i of the angular accelerations α, with given weights w: by
+        /// angles, by angular velocities, and by parameters. The arguments are angles (rad), angular
+        /// velocities (rad/s) and weights.
+        AccelerationsPullback: 3 -> 3
+    }
+
+    function! {
+        /// Derivatives of the sum Σ w_i α_i of the angular accelerations α under external torques:
+        /// by angles, by angular velocities, by torques, and by parameters. The arguments are angles
+        /// (rad), angular velocities (rad/s), torques (N m) and weights.
+        AccelerationsUnderTorquesPullback: 4 -> 4
+    }
+
+    function! {
         /// Angular accelerations (rad/s²) of all links and reactions (N m) on a set of prescribed
         /// links, from angles, angular velocities and torques of all links and the angular
         /// accelerations of the set.
@@ -105,7 +119,7 @@ pub mod functions {
 /// of equations ([`Motion`](super::Motion)), also in lanes, and all of these in other scalar types.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` has no function `{F}` in `{T}`",
-    note = "torques from outside are requested by `emit(forces)`, the torques of a given motion by `emit(inverse_dynamics)`, held links by `prescribed(LINK)`, linear differences by `in_phase(…)` with `emit(transverse)`, those that act back by `emit(small)`, symmetric coordinates by `emit(symmetric)`"
+    note = "torques from outside are requested by `emit(forces)`, the torques of a given motion by `emit(inverse_dynamics)`, derivatives by `emit(gradient)`, held links by `prescribed(LINK)`, linear differences by `in_phase(…)` with `emit(transverse)`, those that act back by `emit(small)`, symmetric coordinates by `emit(symmetric)`"
 )]
 pub trait Computes<F: SliceCounts, T: Scalar>: Model<T> {
     /// The type of the model with constants of the scalar type `S`, which has the function too.

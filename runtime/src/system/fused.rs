@@ -15,7 +15,7 @@ const MOST_LINKS: usize = 64;
 
 /// Largest number of slices that a function of a state takes, and largest number that it writes.
 const MOST_ARGUMENTS: usize = 6;
-const MOST_RESULTS: usize = 2;
+const MOST_RESULTS: usize = 4;
 
 /// Computes a function with fused multiply–add if the type and the machine support it, otherwise in
 /// the arithmetic of `T`.
@@ -37,7 +37,7 @@ pub(super) fn in_fused_arithmetic<F: SliceCounts, T: Scalar, M: Computes<F, T>>(
         model,
         at,
         given: [&[]; MOST_ARGUMENTS],
-        results: [&mut [], &mut []],
+        results: [&mut [], &mut [], &mut [], &mut []],
     };
     for (own, slice) in state.given.iter_mut().zip(given) {
         *own = slice;

@@ -329,9 +329,9 @@ pub fn write<C: Copy + Unknown>(output: &mut [C], values: &[C]) {
     }
 }
 
-/// Copies values to two slices; fills both with NaN if a length differs.
+/// Copies values to as many slices; fills all of them with NaN if a length differs.
 #[inline(always)]
-pub fn write_both<C: Copy + Unknown>(outputs: [&mut [C]; 2], values: [&[C]; 2]) {
+pub fn write_each<C: Copy + Unknown, const N: usize>(outputs: [&mut [C]; N], values: [&[C]; N]) {
     let fit = outputs.each_ref().map(|output| output.len()) == values.map(<[C]>::len);
     for (output, values) in outputs.into_iter().zip(values) {
         write(output, if fit { values } else { &[] });

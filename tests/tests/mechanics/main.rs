@@ -16,6 +16,7 @@ mod orders;
 mod outside;
 mod paper;
 mod parameters;
+mod pullbacks;
 mod random_trees;
 mod rebuilt;
 mod reductions;

@@ -177,6 +177,7 @@ fn naming(description: &Description) -> Naming {
         driven: description.drive.is_some(),
         damped_by_angle: springs.any(|own| own.is_straight() && own.gives("friction")),
         links: LINKS,
+        parameters: description.parameter_names().len(),
         sectors: sector_count(description),
         places: std::iter::once(String::new()).chain(places).collect(),
         prescribed: prescribed.collect(),

@@ -151,6 +151,15 @@ impl Builder {
         }
     }
 
+    /// Suggests a name for the adjoint of a value that has a name: `tangential_a_adjoint`.
+    pub(super) fn hint_adjoint(&mut self, adjoint: ValueId, of: ValueId) {
+        let Definition { name, hint, .. } = &self.definitions[of.0 as usize];
+        if let Some(name) = name.as_ref().or(hint.as_ref()) {
+            let name = format!("{name}_adjoint");
+            self.hint(adjoint, &name);
+        }
+    }
+
     pub(super) fn input(&mut self, argument: Argument, index: usize) -> ValueId {
         self.record(Op::Input(argument, index))
     }

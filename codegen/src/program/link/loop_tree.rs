@@ -212,6 +212,7 @@ impl LoopTree {
             | Argument::Momenta
             | Argument::Forces
             | Argument::Alpha
+            | Argument::Adjoint
             | Argument::Actions
             | Argument::Difference(_)
             | Argument::DifferenceRate(_)
@@ -279,6 +280,7 @@ impl LoopTree {
             | Argument::Momenta
             | Argument::Forces
             | Argument::Alpha
+            | Argument::Adjoint
             | Argument::Actions
             | Argument::Difference(_)
             | Argument::DifferenceRate(_)

@@ -13,7 +13,8 @@ messages! {
         suggest(
             nearest,
             "outputs are `energies`, `momenta`, `modes`, `positions`, `forces`, `symmetric`, \
-             `transfer(...)`, `budget(...)`, `transverse`, `small(...)`, `normal_form`, `taylor`; \
+             `transfer(...)`, `budget(...)`, `transverse`, `small(...)`, `normal_form`, `taylor`, \
+             `inverse_dynamics`, `gradient(...)`; \
              accelerations are always emitted",
         ),
     ),
@@ -88,6 +89,35 @@ messages! {
         "`budget()` names no form",
         "empty",
         "write `budget` for all exact forms, or name some: `budget(parseval)`",
+    ),
+    /// The parentheses of `gradient()` contain no function.
+    NoGradient => (
+        "`gradient()` names no function",
+        "empty",
+        "write `gradient` for derivatives of all emitted functions that have them, or name some: \
+         `gradient(accelerations, energies)`",
+    ),
+    /// A function of which derivatives are requested does not exist.
+    UnknownGradient { name: String, nearest: Option<&'static str> } => (
+        format!("`gradient` does not know `{name}`"),
+        "not a function with derivatives",
+        suggest(
+            nearest,
+            "derivatives exist of `accelerations`, `energies`, `transfer` and of each observable \
+             of `observe(...)`, by its name",
+        ),
+    ),
+    /// An order or parentheses follow a function of which derivatives are requested.
+    GradientForms { name: String } => (
+        format!("`gradient({name})` takes neither an order nor further parentheses"),
+        "takes a name alone",
+        format!("write `gradient({name})`; derivatives exist of every requested form"),
+    ),
+    /// Derivatives of the energy transfer are requested, but the transfer is not.
+    GradientOfNoTransfer => (
+        "`gradient(transfer)` needs the transfer itself",
+        "no transfer is requested",
+        "add `transfer` to the outputs, as in `emit(transfer(exact), gradient(transfer))`",
     ),
     /// The parentheses of `small()` contain no sector.
     NoSmallSector => (

@@ -1,0 +1,69 @@
+//! Docs of the functions that return derivatives by arguments and parameters.
+
+use super::Emission;
+use super::docs::wrapped_names;
+use crate::functions::{Argument, Differentiated, Naming, Purpose};
+
+impl Emission<'_> {
+    /// Returns the documentation of the derivatives of a weighted sum of accelerations.
+    pub(super) fn pullback_meaning(&self, of: Purpose) -> Vec<String> {
+        let signature = Naming::of(self.scene, self.mechanics).signature(of);
+        vec![
+            format!(
+                "Derivatives of the sum Σ w θ̈ of the accelerations of [`{name}`](Self::{name}), each multiplied by a weight w of `adjoint`: {}.",
+                self.places_of_derivatives(&signature.arguments),
+                name = signature.name,
+            ),
+            String::new(),
+            format!(
+                "These are the products of w with the columns of the Jacobian matrix, Σ_i w_i ∂θ̈_i/∂x, {BACKWARDS}"
+            ),
+        ]
+    }
+
+    /// Returns the documentation of the gradient of a function with one number as its result.
+    pub(super) fn gradient_meaning(&self, of: Differentiated) -> Vec<String> {
+        let signature = Naming::of(self.scene, self.mechanics).signature(of.purpose());
+        let whole = match of {
+            Differentiated::TruncatedTransfer(..) | Differentiated::ExactTransfer(..) => {
+                "the sum of both parts of "
+            }
+            Differentiated::KineticEnergy
+            | Differentiated::PotentialEnergy
+            | Differentiated::SubHamiltonian(_)
+            | Differentiated::Observable(..) => "",
+        };
+        vec![
+            format!(
+                "Derivatives of {whole}[`{name}`](Self::{name}): {}.",
+                self.places_of_derivatives(&signature.arguments),
+                name = signature.name,
+            ),
+            String::new(),
+            format!("They are {BACKWARDS}"),
+        ]
+    }
+
+    /// Names what the derivatives are taken by, in the order of the returned arrays.
+    fn places_of_derivatives(&self, arguments: &[Argument]) -> String {
+        let places = arguments
+            .iter()
+            .filter(|argument| **argument != Argument::Time);
+        let places: Vec<String> = places
+            .map(|argument| format!("by `{}`", argument.name()))
+            .collect();
+        let parameters = self.scene.parameters.iter();
+        let parameters: Vec<&str> = parameters.map(|own| own.name.as_str()).collect();
+        let last = match parameters.is_empty() {
+            true => "by the parameters, of which this model has none".to_owned(),
+            false => {
+                let names = wrapped_names(&parameters);
+                format!("by the parameters {}", names.trim_end_matches('.'))
+            }
+        };
+        format!("{}, and {last}", places.join(", "))
+    }
+}
+
+/// How derivatives are computed, after a verb.
+const BACKWARDS: &str = "computed in one pass from the results back to the arguments (reverse mode: Griewank and Walther, Evaluating Derivatives, 2008, chapter 3). The cost includes that of the function itself.";
