@@ -20,6 +20,7 @@
 //! Every run ends with a [`Report`]. A run that fails ends with an [`IntegrationError`] that
 //! carries the last good state.
 
+mod adjoint;
 mod checkpoint;
 mod choice;
 mod control;
@@ -47,6 +48,7 @@ mod steps;
 mod taylor;
 mod trajectory;
 
+pub use adjoint::MotionGradient;
 pub use checkpoint::Checkpoint;
 pub use choice::{MethodChoice, UnknownChoice};
 pub use dense::{DenseError, DenseStep};

@@ -26,6 +26,7 @@ mod patterns;
 pub(crate) mod pendulum;
 pub(crate) mod positions;
 mod prescribed;
+mod pullback;
 mod small;
 mod state;
 mod taylor;
@@ -57,6 +58,7 @@ pub use positions::{LinkPoint, LinkProperties, Positions};
 pub use prescribed::{
     Courses, LaneCourses, LinkCourse, LinkCourses, Prescribed, PrescribedMotion, PrescribedOde,
 };
+pub use pullback::{PullbackOde, PullbackWorkspace};
 pub use small::{ForcedDifferences, SmallDifferences, SmallOde, SmallUnderTorques};
 pub use state::{LengthMismatch, State};
 pub use taylor::{RatesOnly, TaylorOde, TaylorPendulum};

@@ -1,6 +1,7 @@
 //! Actions on a tree from outside at run time: torques in every form of tree, links whose
 //! motion is prescribed, parameters that change.
 
+mod adjoint;
 mod antiphase;
 mod balance;
 mod changes;

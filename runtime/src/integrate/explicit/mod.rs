@@ -17,7 +17,7 @@ mod verner98;
 
 use core::marker::PhantomData;
 
-use self::pair::EmbeddedPair;
+pub(in crate::integrate) use self::pair::EmbeddedPair;
 use self::steps::PairSteps;
 use super::error::{InputError, IntegrationError};
 use super::evaluator::{Evaluator, NonFinite};

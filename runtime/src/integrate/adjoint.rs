@@ -1,0 +1,281 @@
+//! Gradients of costs of a motion: the discrete adjoint of explicit Runge–Kutta pairs.
+
+use alloc::vec;
+use alloc::vec::Vec;
+use core::ops::ControlFlow;
+
+use super::explicit::{EmbeddedPair, ExplicitRungeKutta};
+use super::integrator::Integrator;
+use super::request::{check_start, check_times};
+use super::{IntegrationError, Report};
+use crate::scalar::Real;
+use crate::system::{PullbackOde, PullbackWorkspace, State, Workspace};
+
+/// A cost of a motion and its derivatives, as [`ExplicitRungeKutta::gradient`] returns them.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MotionGradient<T> {
+    /// Sum of the costs of all samples.
+    pub cost: T,
+    /// Derivatives of the cost by the components of the start state.
+    pub start: Vec<T>,
+    /// Derivatives of the cost by the parameters of the equations.
+    pub parameters: Vec<T>,
+    /// Number of steps of the motion.
+    pub steps: usize,
+}
+
+impl<M: EmbeddedPair, T: Real> ExplicitRungeKutta<M, T> {
+    /// Returns the sum of the costs of a motion at given `times`, and its derivatives by the start
+    /// state and by the `parameters` (their number) of the equations.
+    ///
+    /// `cost` receives the index of a time, the state there, and a slice of zeros to which it
+    /// writes the derivatives of its result by the state. The times are in the direction of the
+    /// motion, and steps end at each of them.
+    ///
+    /// The derivatives are those of the numerical solution with its steps kept fixed (the discrete
+    /// adjoint), exact but for rounding: each step is repeated from its stored start and
+    /// differentiated backwards through its stages. Time: one run, one repetition, and one pullback
+    /// for each stage; the number of parameters does not count. Memory: one state for each
+    /// step. In a chaotic motion the derivatives grow as two nearby motions separate; beyond the
+    /// time at which the motion itself is lost ([`Horizon`](super::Horizon)) they say nothing about
+    /// it.
+    ///
+    /// Source: Sanz-Serna, SIAM Review 58 (2016) 3–33.
+    ///
+    /// # Errors
+    ///
+    /// [`IntegrationError`] as [`Integrator::integrate`]; [`IntegrationError::NonFinite`] if a
+    /// derivative is not finite, or if the number of parameters is not that of the equations.
+    ///
+    /// # Examples
+    ///
+    /// The derivative of exp(k t) by its start and by the rate k:
+    ///
+    /// ```
+    /// use branched_pendulum::prelude::*;
+    /// use branched_pendulum::system::{PullbackOde, PullbackWorkspace};
+    ///
+    /// struct Growth(f64);
+    ///
+    /// impl Ode<f64> for Growth {
+    ///     fn dimension(&self) -> usize {
+    ///         1
+    ///     }
+    ///     fn rates(&self, _: f64, state: &[f64], rates: &mut [f64]) {
+    ///         rates[0] = self.0 * state[0];
+    ///     }
+    /// }
+    ///
+    /// impl PullbackOde<f64> for Growth {
+    ///     fn add_pullback(
+    ///         &self,
+    ///         _: &mut PullbackWorkspace<f64>,
+    ///         _: f64,
+    ///         state: &[f64],
+    ///         weights: &[f64],
+    ///         state_adjoint: &mut [f64],
+    ///         parameters_adjoint: &mut [f64],
+    ///     ) {
+    ///         state_adjoint[0] += self.0 * weights[0];
+    ///         parameters_adjoint[0] += state[0] * weights[0];
+    ///     }
+    /// }
+    ///
+    /// let method = Dop853::new(Options::with_tolerance(1e-12));
+    /// let start = State::new(0.0, vec![1.0]);
+    /// let end = |_: usize, state: &[f64], slopes: &mut [f64]| {
+    ///     slopes[0] = 1.0;
+    ///     state[0]
+    /// };
+    /// let gradient = method.gradient(&Growth(0.5), 1, &start, &[2.0], end)?;
+    /// let e = 1.0_f64.exp();
+    /// assert!((gradient.cost - e).abs() < 1e-11);
+    /// assert!((gradient.start[0] - e).abs() < 1e-11);
+    /// assert!((gradient.parameters[0] - 2.0 * e).abs() < 1e-11);
+    /// # Ok::<(), IntegrationError<f64>>(())
+    /// ```
+    pub fn gradient<O: PullbackOde<T> + ?Sized>(
+        &self,
+        ode: &O,
+        parameters: usize,
+        start: &State<T>,
+        times: &[T],
+        mut cost: impl FnMut(usize, &[T], &mut [T]) -> T,
+    ) -> Result<MotionGradient<T>, IntegrationError<T>> {
+        check_start(ode, (start.time, &start.values))?;
+        check_times(start.time, times)?;
+        let mut steps: Vec<StepTaken<T>> = Vec::new();
+        // Cost of each sample: derivatives, and number of steps before it.
+        let mut samples: Vec<(usize, Vec<T>)> = Vec::new();
+        let mut total = T::ZERO;
+        let mut reached = start.clone();
+        for (index, &time) in times.iter().enumerate() {
+            if time != reached.time {
+                let solution = self.integrate(ode, &reached, time, |step| {
+                    steps.push(StepTaken {
+                        time: step.start_time(),
+                        length: step.end_time() - step.start_time(),
+                        start: step.start().to_vec(),
+                    });
+                    ControlFlow::Continue(())
+                })?;
+                reached = solution.state;
+            }
+            let mut slopes = vec![T::ZERO; reached.values.len()];
+            total = total + cost(index, &reached.values, &mut slopes);
+            samples.push((steps.len(), slopes));
+        }
+        let mut reverse = Reverse::new::<M>(start.values.len(), parameters);
+        let mut number = steps.len();
+        while let Some((before, slopes)) = samples.pop() {
+            while number > before {
+                number -= 1;
+                reverse.step::<M, O>(ode, &steps[number])?;
+            }
+            for (adjoint, slope) in reverse.adjoint.iter_mut().zip(slopes) {
+                *adjoint = *adjoint + slope;
+            }
+        }
+        for step in steps[..number].iter().rev() {
+            reverse.step::<M, O>(ode, step)?;
+        }
+        let gradient = MotionGradient {
+            cost: total,
+            start: reverse.adjoint,
+            parameters: reverse.parameters,
+            steps: steps.len(),
+        };
+        let mut all = gradient.start.iter().chain(&gradient.parameters);
+        match all.all(|slope| slope.is_finite()) && total.is_finite() {
+            true => Ok(gradient),
+            false => Err(non_finite(start)),
+        }
+    }
+}
+
+/// A step of the motion.
+struct StepTaken<T> {
+    time: T,
+    length: T,
+    start: Vec<T>,
+}
+
+/// Error for derivatives that are not finite at a state of the motion.
+fn non_finite<T: Real>(at: &State<T>) -> IntegrationError<T> {
+    IntegrationError::NonFinite {
+        time: at.time,
+        values: at.values.clone(),
+        last: at.clone(),
+        report: Report::new(),
+    }
+}
+
+/// Adjoint of the state at the end of the steps that have not been passed yet, and memory for one
+/// step.
+struct Reverse<T> {
+    adjoint: Vec<T>,
+    parameters: Vec<T>,
+    /// States of the stages, one after the other.
+    states: Vec<T>,
+    /// Rates of the stages; on the way back their adjoints.
+    rates: Vec<T>,
+    weights: Vec<T>,
+    stage_adjoint: Vec<T>,
+    workspace: Workspace<T>,
+    pullback: PullbackWorkspace<T>,
+}
+
+impl<T: Real> Reverse<T> {
+    fn new<M: EmbeddedPair>(dimension: usize, parameters: usize) -> Self {
+        let zeros = |vectors: usize| vec![T::ZERO; vectors * dimension];
+        Self {
+            adjoint: zeros(1),
+            parameters: vec![T::ZERO; parameters],
+            states: zeros(M::STAGES),
+            rates: zeros(M::STAGES),
+            weights: zeros(1),
+            stage_adjoint: zeros(1),
+            workspace: Workspace::new(),
+            pullback: PullbackWorkspace::new(),
+        }
+    }
+
+    /// Takes the adjoint from the end of a step to its start.
+    fn step<M: EmbeddedPair, O: PullbackOde<T> + ?Sized>(
+        &mut self,
+        ode: &O,
+        step: &StepTaken<T>,
+    ) -> Result<(), IntegrationError<T>> {
+        let n = step.start.len();
+        let node = |stage: usize| step.time + T::from_f64(M::NODES[stage]) * step.length;
+        for stage in 0..M::STAGES {
+            let own = &mut self.states[stage * n..(stage + 1) * n];
+            own.copy_from_slice(&step.start);
+            for &(other, weight) in row::<M>(stage) {
+                let factor = T::from_f64(weight) * step.length;
+                let rates = &self.rates[(other - 1) * n..other * n];
+                for (value, rate) in own.iter_mut().zip(rates) {
+                    *value = *value + factor * *rate;
+                }
+            }
+            let rates = &mut self.rates[stage * n..(stage + 1) * n];
+            ode.rates_with(&mut self.workspace, node(stage), own, rates);
+        }
+        // The end of the step is y + h Σ b k.
+        self.rates.fill(T::ZERO);
+        spread(
+            &mut self.rates,
+            row::<M>(M::STAGES),
+            step.length,
+            &self.adjoint,
+        );
+        for stage in (0..M::STAGES).rev() {
+            let rates_adjoint = &self.rates[stage * n..(stage + 1) * n];
+            self.weights.copy_from_slice(rates_adjoint);
+            self.stage_adjoint.fill(T::ZERO);
+            ode.add_pullback(
+                &mut self.pullback,
+                node(stage),
+                &self.states[stage * n..(stage + 1) * n],
+                &self.weights,
+                &mut self.stage_adjoint,
+                &mut self.parameters,
+            );
+            // The state of a stage is y + h Σ a k.
+            spread(
+                &mut self.rates,
+                row::<M>(stage),
+                step.length,
+                &self.stage_adjoint,
+            );
+            for (adjoint, more) in self.adjoint.iter_mut().zip(&self.stage_adjoint) {
+                *adjoint = *adjoint + *more;
+            }
+        }
+        match self.adjoint.iter().all(|adjoint| adjoint.is_finite()) {
+            true => Ok(()),
+            false => Err(non_finite(&State::new(step.time, step.start.clone()))),
+        }
+    }
+}
+
+/// Returns the row of the table for a stage, counted from 0; the row of the stage after the last one
+/// holds the weights of the solution.
+fn row<M: EmbeddedPair>(stage: usize) -> &'static [(usize, f64)] {
+    match stage {
+        0 => &[],
+        _ => M::ROWS[stage - 1],
+    }
+}
+
+/// Adds the adjoint of y + h Σ a k, times h a, to the adjoint of each of the rates k.
+fn spread<T: Real>(rates: &mut [T], row: &[(usize, f64)], length: T, adjoint: &[T]) {
+    let n = adjoint.len();
+    for &(stage, weight) in row {
+        let factor = T::from_f64(weight) * length;
+        let rates = &mut rates[(stage - 1) * n..stage * n];
+        for (rate, adjoint) in rates.iter_mut().zip(adjoint) {
+            *rate = *rate + factor * *adjoint;
+        }
+    }
+}
