@@ -20,6 +20,10 @@ pub struct MotionGradient<T> {
     pub start: Vec<T>,
     /// Derivatives of the cost by the parameters of the equations.
     pub parameters: Vec<T>,
+    /// Largest size of the adjoint on the way back, relative to the largest derivative of a cost by
+    /// its state: how much the motion amplifies small changes. If its product with the relative
+    /// tolerance is not far below 1, the derivatives say nothing about the motion.
+    pub growth: T,
     /// Number of steps of the motion.
     pub steps: usize,
 }
@@ -36,9 +40,8 @@ impl<M: EmbeddedPair, T: Real> ExplicitRungeKutta<M, T> {
     /// adjoint), exact but for rounding: each step is repeated from its stored start and
     /// differentiated backwards through its stages. Time: one run, one repetition, and one pullback
     /// for each stage; the number of parameters does not count. Memory: one state for each
-    /// step. In a chaotic motion the derivatives grow as two nearby motions separate; beyond the
-    /// time at which the motion itself is lost ([`Horizon`](super::Horizon)) they say nothing about
-    /// it.
+    /// step. In a chaotic motion the derivatives grow as fast as two nearby motions separate, and are of no
+    /// use once these are apart: [`MotionGradient::growth`] says how far they grew.
     ///
     /// Source: Sanz-Serna, SIAM Review 58 (2016) 3–33.
     ///
@@ -125,6 +128,8 @@ impl<M: EmbeddedPair, T: Real> ExplicitRungeKutta<M, T> {
             total = total + cost(index, &reached.values, &mut slopes);
             samples.push((steps.len(), slopes));
         }
+        let slopes = samples.iter().flat_map(|(_, slopes)| slopes);
+        let given = largest(slopes);
         let mut reverse = Reverse::new::<M>(start.values.len(), parameters);
         let mut number = steps.len();
         while let Some((before, slopes)) = samples.pop() {
@@ -143,6 +148,10 @@ impl<M: EmbeddedPair, T: Real> ExplicitRungeKutta<M, T> {
             cost: total,
             start: reverse.adjoint,
             parameters: reverse.parameters,
+            growth: match given > T::ZERO {
+                true => reverse.largest / given,
+                false => T::ZERO,
+            },
             steps: steps.len(),
         };
         let mut all = gradient.start.iter().chain(&gradient.parameters);
@@ -160,6 +169,13 @@ struct StepTaken<T> {
     start: Vec<T>,
 }
 
+/// Returns the largest magnitude.
+fn largest<'a, T: Real>(values: impl IntoIterator<Item = &'a T>) -> T {
+    values
+        .into_iter()
+        .fold(T::ZERO, |largest, value| largest.max(value.abs()))
+}
+
 /// Error for derivatives that are not finite at a state of the motion.
 fn non_finite<T: Real>(at: &State<T>) -> IntegrationError<T> {
     IntegrationError::NonFinite {
@@ -174,6 +190,8 @@ fn non_finite<T: Real>(at: &State<T>) -> IntegrationError<T> {
 /// step.
 struct Reverse<T> {
     adjoint: Vec<T>,
+    /// Largest size of a component of the adjoint so far.
+    largest: T,
     parameters: Vec<T>,
     /// States of the stages, one after the other.
     states: Vec<T>,
@@ -190,6 +208,7 @@ impl<T: Real> Reverse<T> {
         let zeros = |vectors: usize| vec![T::ZERO; vectors * dimension];
         Self {
             adjoint: zeros(1),
+            largest: T::ZERO,
             parameters: vec![T::ZERO; parameters],
             states: zeros(M::STAGES),
             rates: zeros(M::STAGES),
@@ -252,6 +271,7 @@ impl<T: Real> Reverse<T> {
                 *adjoint = *adjoint + *more;
             }
         }
+        self.largest = self.largest.max(largest(&self.adjoint));
         match self.adjoint.iter().all(|adjoint| adjoint.is_finite()) {
             true => Ok(()),
             false => Err(non_finite(&State::new(step.time, step.start.clone()))),

@@ -197,6 +197,26 @@ fn batches_have_pullbacks() {
     }
 }
 
+/// A chaotic motion amplifies small changes without bound, a regular one does not.
+#[test]
+fn growth_tells_chaotic_from_regular_motions() {
+    let paper = Paper::new();
+    let ode = AbsoluteAngles(&paper);
+    let end = |_: usize, state: &[f64], slopes: &mut [f64]| {
+        slopes[0] = 1.0;
+        state[0]
+    };
+    let growth = |degrees: f64| {
+        let start = State::at_rest(0.0, &[degrees.to_radians(), 0.1, 0.0]);
+        let gradient = method().gradient(&ode, 0, &start, &[20.0], end);
+        gradient.expect("a motion").growth
+    };
+    let (regular, chaotic) = (growth(10.0), growth(120.0));
+    println!("{regular:.1e} {chaotic:.1e}");
+    assert!(regular < 1e3, "{regular}");
+    assert!(chaotic > 1e8, "{chaotic}");
+}
+
 /// A wrong number of parameters is refused, not answered with wrong derivatives.
 #[test]
 fn a_wrong_number_of_parameters_is_refused() {
