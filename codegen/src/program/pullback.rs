@@ -10,8 +10,8 @@
 use super::builder::Builder;
 use super::entry_list::EntryList;
 use super::{Entry, Op, ValueId};
-use crate::functions::{Argument, Purpose};
-use crate::scene::Scene;
+use crate::functions::{Argument, Differentiated, Purpose};
+use crate::scene::{GradientRequest, Scene};
 use std::collections::{BTreeMap, BTreeSet};
 
 impl EntryList<'_, '_> {
@@ -21,7 +21,7 @@ impl EntryList<'_, '_> {
             return;
         };
         for entry in self.entries.clone() {
-            if let Some(purpose) = request.derivative(&scene.observables, entry.purpose) {
+            if let Some(purpose) = requested(scene, request, entry.purpose) {
                 let outputs = self.pullback(scene, &entry, purpose);
                 self.push(purpose, outputs);
             }
@@ -52,6 +52,32 @@ impl EntryList<'_, '_> {
         }
         outputs
     }
+}
+
+/// Returns the purpose of the requested derivatives of a function; `None` if they are not requested.
+fn requested(scene: &Scene, request: &GradientRequest, of: Purpose) -> Option<Purpose> {
+    let pullbacks = [
+        (Purpose::Accelerations, Purpose::AccelerationsPullback),
+        (
+            Purpose::AccelerationsUnder,
+            Purpose::AccelerationsUnderPullback,
+        ),
+    ];
+    if let Some((_, pullback)) = pullbacks.into_iter().find(|(function, _)| *function == of) {
+        return request.accelerations.then_some(pullback);
+    }
+    let of = Differentiated::of(of)?;
+    let wanted = match of {
+        Differentiated::KineticEnergy | Differentiated::PotentialEnergy => request.energies,
+        Differentiated::SubHamiltonian(_)
+        | Differentiated::TruncatedTransfer(..)
+        | Differentiated::ExactTransfer(..) => request.transfer,
+        Differentiated::Observable(number, _) => {
+            let name = &scene.observables[number].name;
+            request.observables.contains(name)
+        }
+    };
+    wanted.then_some(Purpose::Gradient(of))
 }
 
 /// Adjoints of the values of a program.

@@ -1,7 +1,5 @@
 //! Requested outputs.
 
-use super::Observable;
-use crate::functions::{Differentiated, Purpose};
 use crate::named_members::named_members;
 
 named_members! {
@@ -164,34 +162,6 @@ pub struct GradientRequest {
     pub transfer: bool,
     /// Names of observables.
     pub observables: Vec<String>,
-}
-
-impl GradientRequest {
-    /// Returns the purpose of the requested derivatives of a function; `None` if they are not
-    /// requested.
-    pub(crate) fn derivative(&self, observables: &[Observable], of: Purpose) -> Option<Purpose> {
-        match of {
-            Purpose::Accelerations => self.accelerations.then_some(Purpose::AccelerationsPullback),
-            Purpose::AccelerationsUnder => {
-                (self.accelerations).then_some(Purpose::AccelerationsUnderPullback)
-            }
-            _ => {
-                let of = Differentiated::of(of)?;
-                let wanted = match of {
-                    Differentiated::KineticEnergy | Differentiated::PotentialEnergy => {
-                        self.energies
-                    }
-                    Differentiated::SubHamiltonian(_)
-                    | Differentiated::TruncatedTransfer(..)
-                    | Differentiated::ExactTransfer(..) => self.transfer,
-                    Differentiated::Observable(number, _) => {
-                        self.observables.contains(&observables[number].name)
-                    }
-                };
-                wanted.then_some(Purpose::Gradient(of))
-            }
-        }
-    }
 }
 
 /// Requested forms of the energy transfer; at least one.

@@ -2,12 +2,13 @@
 
 use alloc::vec;
 use alloc::vec::Vec;
+use core::cell::RefCell;
 use core::ops::ControlFlow;
 
 use super::explicit::{EmbeddedPair, ExplicitRungeKutta};
 use super::integrator::Integrator;
 use super::request::{check_start, check_times};
-use super::{IntegrationError, Report};
+use super::{Crossing, Event, IntegrationError, Report, StopReason};
 use crate::scalar::Real;
 use crate::system::{PullbackOde, PullbackWorkspace, State, Workspace};
 
@@ -159,6 +160,57 @@ impl<M: EmbeddedPair, T: Real> ExplicitRungeKutta<M, T> {
             true => Ok(gradient),
             false => Err(non_finite(start)),
         }
+    }
+
+    /// Returns the first time at which a function of the state crosses zero, and the derivatives of
+    /// this time by the start state and by the `parameters` (their number) of the equations; `None`
+    /// if the function does not cross zero before the time `end`. The result's `cost` is the time.
+    ///
+    /// `function` returns the value at a state and writes its derivatives by the components to a
+    /// slice of zeros. With a crossing at time t and state y the derivatives of t are those of
+    /// −g(y) / (∇g · f), where f are the rates there.
+    ///
+    /// Time and memory: those of [`gradient`](Self::gradient), and one more run.
+    ///
+    /// # Errors
+    ///
+    /// [`IntegrationError`] as [`gradient`](Self::gradient); [`IntegrationError::NonFinite`] also if
+    /// the function touches zero without crossing it, where its time has no derivatives.
+    pub fn gradient_of_crossing<O: PullbackOde<T> + ?Sized>(
+        &self,
+        ode: &O,
+        parameters: usize,
+        start: &State<T>,
+        end: T,
+        crossing: Crossing,
+        function: impl Fn(&[T], &mut [T]) -> T,
+    ) -> Result<Option<MotionGradient<T>>, IntegrationError<T>> {
+        let memory = RefCell::new(vec![T::ZERO; start.values.len()]);
+        let value = |_: T, state: &[T]| {
+            let mut slopes = memory.borrow_mut();
+            slopes.fill(T::ZERO);
+            function(state, &mut slopes)
+        };
+        let event = Event::new(crossing, &value).with_terminal(1);
+        let found =
+            self.integrate_with_events(ode, start, end, &[event], |_| ControlFlow::Continue(()))?;
+        if found.report.stop != StopReason::StoppedByEvent {
+            return Ok(None);
+        }
+        let time = found.state.time;
+        let cost = |_: usize, state: &[T], slopes: &mut [T]| {
+            let _ = function(state, slopes);
+            let mut rates = vec![T::ZERO; state.len()];
+            ode.rates(time, state, &mut rates);
+            let terms = rates.iter().zip(slopes.iter());
+            let speed = terms.fold(T::ZERO, |sum, (rate, slope)| sum + *rate * *slope);
+            for slope in slopes {
+                *slope = -*slope / speed;
+            }
+            time
+        };
+        let gradient = self.gradient(ode, parameters, start, &[time], cost)?;
+        Ok(Some(gradient))
     }
 }
 

@@ -4,7 +4,7 @@
 use branched_pendulum::Parametric;
 use branched_pendulum::analysis::variational::{flow_jacobian, linearised};
 use branched_pendulum::batch::Batch;
-use branched_pendulum::integrate::MotionGradient;
+use branched_pendulum::integrate::{Crossing, MotionGradient};
 use branched_pendulum::prelude::*;
 use branched_pendulum::system::{At, functions};
 use branched_pendulum_compiler_tests::random::Random;
@@ -94,6 +94,29 @@ fn derivatives_by_the_start_are_those_of_the_variational_equations() {
     assert!(error < 1e-10, "{error}");
 }
 
+/// Derivatives by start and parameters, from central differences of order 6.
+fn differences(cost: &dyn Fn(&[f64; 5], &State<f64>) -> f64) -> (Vec<f64>, Vec<f64>) {
+    let difference = |step: f64, at: &dyn Fn(f64) -> f64| {
+        let pair = |steps: f64| at(steps * step) - at(-steps * step);
+        (45.0 * pair(1.0) - 9.0 * pair(2.0) + pair(3.0)) / (60.0 * step)
+    };
+    let by_start = (0..6).map(|index| {
+        difference(2e-3, &|change| {
+            let mut start = start();
+            start.values[index] += change;
+            cost(&VALUES, &start)
+        })
+    });
+    let by_parameters = (0..5).map(|index| {
+        difference(2e-3 * VALUES[index], &|change| {
+            let mut values = VALUES;
+            values[index] += change;
+            cost(&values, &start())
+        })
+    });
+    (by_start.collect(), by_parameters.collect())
+}
+
 /// Sum of the squares of the angles at several times.
 fn spread(model: &Branched, start: &State<f64>) -> MotionGradient<f64> {
     let cost = |index: usize, state: &[f64], slopes: &mut [f64]| {
@@ -114,28 +137,8 @@ fn spread(model: &Branched, start: &State<f64>) -> MotionGradient<f64> {
 #[test]
 fn derivatives_by_parameters_agree_with_differences_of_runs() {
     let gradient = spread(&branched(&VALUES), &start());
-    let difference = |step: f64, at: &dyn Fn(f64) -> f64| {
-        let pair = |steps: f64| at(steps * step) - at(-steps * step);
-        (45.0 * pair(1.0) - 9.0 * pair(2.0) + pair(3.0)) / (60.0 * step)
-    };
-    let by_parameters: Vec<f64> = (0..5)
-        .map(|index| {
-            difference(2e-3 * VALUES[index], &|change| {
-                let mut values = VALUES;
-                values[index] += change;
-                spread(&branched(&values), &start()).cost
-            })
-        })
-        .collect();
-    let by_start: Vec<f64> = (0..6)
-        .map(|index| {
-            difference(2e-3, &|change| {
-                let mut start = start();
-                start.values[index] += change;
-                spread(&branched(&VALUES), &start).cost
-            })
-        })
-        .collect();
+    let (by_start, by_parameters) =
+        differences(&|values, start| spread(&branched(values), start).cost);
     for (found, expected) in gradient.parameters.iter().zip(&by_parameters) {
         assert!(
             (found - expected).abs() < 1e-8 * expected.abs(),
@@ -195,6 +198,43 @@ fn batches_have_pullbacks() {
         assert!(error(&of(&second), &expected.1) < 1e-13);
         assert!(error(&parameters.map(|column| column[state]), &expected.2) < 1e-13);
     }
+}
+
+/// The time at which a child hangs down for the first time.
+#[test]
+fn derivatives_of_the_time_of_an_event_agree_with_differences() {
+    let hangs = |state: &[f64], slopes: &mut [f64]| {
+        slopes[1] = state[1].cos();
+        state[1].sin()
+    };
+    let crossing = |values: &[f64; 5], start: &State<f64>| {
+        let model = branched(values);
+        let ode = AbsoluteAngles(&model);
+        let found = method().gradient_of_crossing(&ode, 5, start, 5.0, Crossing::Either, hangs);
+        found.expect("a motion").expect("it swings through")
+    };
+    let gradient = crossing(&VALUES, &start());
+    println!("{:.3} s", gradient.cost);
+    let (by_start, by_parameters) = differences(&|values, start| crossing(values, start).cost);
+    let [by_parameters, by_start] = [
+        error(&gradient.parameters, &by_parameters),
+        error(&gradient.start, &by_start),
+    ];
+    println!("{by_parameters:.1e} {by_start:.1e}");
+    assert!(
+        by_parameters < 1e-8 && by_start < 1e-8,
+        "{by_parameters} {by_start}"
+    );
+
+    // It does not hang upwards.
+    let upwards = |state: &[f64], slopes: &mut [f64]| {
+        slopes[1] = 1.0;
+        state[1] - 3.0
+    };
+    let model = branched(&VALUES);
+    let ode = AbsoluteAngles(&model);
+    let found = method().gradient_of_crossing(&ode, 5, &start(), 5.0, Crossing::Either, upwards);
+    assert_eq!(found.expect("a motion"), None);
 }
 
 /// A chaotic motion amplifies small changes without bound, a regular one does not.

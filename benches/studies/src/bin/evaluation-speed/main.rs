@@ -9,6 +9,7 @@ pub mod by_hand;
 pub mod dense;
 pub mod large;
 pub mod large_batches;
+pub mod limit;
 pub mod measure;
 pub mod output;
 pub mod scenes;
@@ -57,6 +58,7 @@ fn main() -> ExitCode {
         let rows = measure::all(REPEATS);
         progress.next();
         job.print(&(output::table(&rows) + "\n"))?;
+        job.print(&(limit::table(&rows) + "\n"))?;
         progress.begin("errors");
         let errors = accuracy::all(STATES);
         progress.next();
