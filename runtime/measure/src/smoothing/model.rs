@@ -6,10 +6,13 @@ use super::disturbances::Disturbances;
 use super::error::{SmoothingError, check_length, check_option, check_times, usual_interval};
 use super::gaussian::{carried, gains};
 use super::likelihood::climb;
-use super::model_filter::{BrakedMotion, Filtered, ModelFilter, SmoothingSolution, inverse_mass};
+use super::model_filter::{
+    BrakedMotion, Filtered, MassFn, ModelFilter, SmoothingSolution, inverse_mass,
+};
 use super::series::{Scale, SmoothedMotion};
-use branched_pendulum::analysis::variational::{Linearised, Variational};
+use branched_pendulum::analysis::variational::{Linearised, Variational, flow_jacobian};
 use branched_pendulum::integrate::Integrator;
+use branched_pendulum::system::State;
 
 /// A smoother that uses the equations of motion: between two times the state obeys the equations,
 /// disturbed by white-noise generalized forces of spectral density q, which represent everything
@@ -131,10 +134,13 @@ impl ModelSmoother {
         for kind in &mut kinds {
             *kind /= size;
         }
+        let flow = |start: &State<f64>, end: f64| {
+            let flow = flow_jacobian(method, system, start, end);
+            flow.map_err(|_| SmoothingError::Diverged)
+        };
         let problem = ModelFilter {
-            method,
-            system,
-            mass_matrix,
+            flow: &flow,
+            mass_matrix: &mass_matrix,
             times,
             data,
             links,
@@ -216,16 +222,11 @@ impl ModelSmoother {
         self.frictions.iter().map(sum).collect()
     }
 
-    fn likeliest<L, M, A>(
+    fn likeliest(
         &self,
-        problem: &ModelFilter<'_, L, M, A>,
+        problem: &ModelFilter<'_>,
         start: BrakedMotion,
-    ) -> Result<SmoothingSolution, SmoothingError>
-    where
-        L: Linearised<f64>,
-        M: for<'a> Integrator<f64, Variational<'a, L>>,
-        A: Fn(&[f64]) -> Vec<Vec<f64>>,
-    {
+    ) -> Result<SmoothingSolution, SmoothingError> {
         let of = |solution: &SmoothingSolution| {
             problem.likelihood(&solution.logs, &solution.filtered.innovations)
         };
@@ -300,13 +301,13 @@ fn square(row: &[f64]) -> DMatrix<f64> {
 /// accelerations; 1 if there are no forces.
 fn size_of_accelerations(
     kinds: &[DMatrix<f64>],
-    mass_matrix: impl Fn(&[f64]) -> Vec<Vec<f64>>,
+    mass_matrix: &MassFn<'_>,
     motion: &[DVector<f64>],
 ) -> Result<f64, SmoothingError> {
     let (mut sum, mut count) = (0.0, 0);
     for (index, state) in motion.iter().enumerate() {
         let (angles, _) = state.as_slice().split_at(state.len() / 2);
-        let inverse = inverse_mass(&mass_matrix, angles, index)?;
+        let inverse = inverse_mass(mass_matrix, angles, index)?;
         let traces = kinds.iter().map(|kind| carried(&inverse, kind).trace());
         sum += traces.sum::<f64>();
         count += kinds.len() * inverse.nrows();
@@ -316,16 +317,11 @@ fn size_of_accelerations(
 }
 
 /// Returns the motion of a solution with its errors; `size` comes from [`size_of_accelerations`].
-fn smoothed<L, M, A>(
-    problem: &ModelFilter<'_, L, M, A>,
+fn smoothed(
+    problem: &ModelFilter<'_>,
     solution: SmoothingSolution,
     size: f64,
-) -> SmoothedMotion<Vec<f64>>
-where
-    L: Linearised<f64>,
-    M: for<'a> Integrator<f64, Variational<'a, L>>,
-    A: Fn(&[f64]) -> Vec<Vec<f64>>,
-{
+) -> SmoothedMotion<Vec<f64>> {
     let cube = problem.unit.powi(3);
     let SmoothingSolution { logs, filtered, .. } = solution;
     let Filtered {

@@ -6,19 +6,24 @@ use super::constants::{FittedConstants, StepEffects};
 use super::error::SmoothingError;
 use super::gaussian::{Gaussian, Innovation, Innovations, Step, carried, gains, smoothed_means};
 use super::kinematic::DIFFUSE;
-use branched_pendulum::analysis::variational::{Linearised, Variational, flow_jacobian};
-use branched_pendulum::integrate::Integrator;
 use branched_pendulum::system::State;
 
 /// Largest number of Gauss–Newton iterations for one value of the density q.
 const ITERATIONS: usize = 12;
 
-/// Measured data, and the equations of motion of the measured system.
-pub(super) struct ModelFilter<'a, L, M, A> {
-    pub(super) method: &'a M,
-    pub(super) system: &'a L,
-    /// Function that returns the rows of the mass matrix at given angles.
-    pub(super) mass_matrix: A,
+/// Function that returns the state at a given time of the motion from a given state, and the columns
+/// of its derivative by that state.
+pub(super) type FlowFn<'a> =
+    dyn Fn(&State<f64>, f64) -> Result<(State<f64>, Vec<f64>), SmoothingError> + 'a;
+
+/// Function that returns the rows of the mass matrix at given angles.
+pub(super) type MassFn<'a> = dyn Fn(&[f64]) -> Vec<Vec<f64>> + 'a;
+
+/// Measured data, and the equations of motion of the measured system. They are behind `dyn`, so that
+/// the filter is compiled only once for all systems and methods.
+pub(super) struct ModelFilter<'a> {
+    pub(super) flow: &'a FlowFn<'a>,
+    pub(super) mass_matrix: &'a MassFn<'a>,
     pub(super) times: &'a [f64],
     pub(super) data: &'a [Vec<Option<f64>>],
     /// Number of angles.
@@ -82,12 +87,7 @@ pub(super) struct SmoothingSolution {
     pub(super) filtered: Filtered,
 }
 
-impl<L, M, A> ModelFilter<'_, L, M, A>
-where
-    L: Linearised<f64>,
-    M: for<'a> Integrator<f64, Variational<'a, L>>,
-    A: Fn(&[f64]) -> Vec<Vec<f64>>,
-{
+impl ModelFilter<'_> {
     /// Returns the standard deviation of the data for these logarithms of the ratios, if it or the
     /// density is given.
     fn given_noise(&self, logs: &[f64]) -> Option<f64> {
@@ -157,11 +157,10 @@ where
         pairs
             .map(|(index, ((&time, state), (&end, next)))| {
                 let start = State::new(time, state.as_slice().to_vec());
-                let flow = flow_jacobian(self.method, self.system, &start, end);
-                let (reached, columns) = flow.map_err(|_| SmoothingError::Diverged)?;
+                let (reached, columns) = (self.flow)(&start, end)?;
                 let ends = [state, next].map(AnglesAndRates::of);
                 let angles = ends[0].angles.as_slice();
-                let inverse_mass = inverse_mass(&self.mass_matrix, angles, index)?;
+                let inverse_mass = inverse_mass(self.mass_matrix, angles, index)?;
                 let mut flow = LinearFlow {
                     end: DVector::from_vec(reached.values),
                     transition: DMatrix::from_vec(size, size, columns),
@@ -188,8 +187,8 @@ where
     ) -> Result<(), SmoothingError> {
         let links = self.links;
         let middle = first.halfway(last, h);
-        let at_middle = inverse_mass(&self.mass_matrix, middle.angles.as_slice(), index)?;
-        let at_last = inverse_mass(&self.mass_matrix, last.angles.as_slice(), index)?;
+        let at_middle = inverse_mass(self.mass_matrix, middle.angles.as_slice(), index)?;
+        let at_last = inverse_mass(self.mass_matrix, last.angles.as_slice(), index)?;
         // The second half of the flow: the square root of the whole, by its series.
         let unit = DMatrix::identity(2 * links, 2 * links);
         let change = &flow.transition - &unit;
@@ -373,7 +372,7 @@ impl AnglesAndRates {
 /// Returns the inverse of the mass matrix at the given angles; `index` is the index of the time,
 /// for messages.
 pub(super) fn inverse_mass(
-    mass_matrix: impl Fn(&[f64]) -> Vec<Vec<f64>>,
+    mass_matrix: &MassFn<'_>,
     angles: &[f64],
     index: usize,
 ) -> Result<DMatrix<f64>, SmoothingError> {
