@@ -222,7 +222,7 @@ fn energy_closes_in_lanes() {
         })
         .collect();
     let method = Dop853::new(Options::with_tolerance(1e-13));
-    let ends = Ensemble::new().integrate_models_in_lanes(&method, &releases, 10.0);
+    let ends = Ensemble::new().integrate_models_in_lanes(&method, &releases, 3.0);
     for ((_, start), end) in releases.iter().zip(ends) {
         let energy = |values: &[f64]| {
             let (theta, omega) = (&values[..LINKS], &values[LINKS..2 * LINKS]);

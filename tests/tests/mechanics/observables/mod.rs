@@ -128,17 +128,28 @@ fn differences(case: &Case, tree: &Tree, theta: &[f64], omega: &[f64]) -> Vec<(f
     let mut best = vec![(f64::NAN, f64::INFINITY); OBSERVABLES];
     let mut last = vec![f64::NAN; OBSERVABLES];
     let coarsest = (0.3 / fastest(tree, theta, omega)).min(1e-2);
+    // Observables before and after the state, by the number of steps to it.
+    let mut values: [[Vec<f64>; 4]; 2] = Default::default();
     for level in 0..12 {
         let step = coarsest * 0.5_f64.powi(level);
         let mut rates = vec![0.0; OBSERVABLES];
         let mut largest = [0.0_f64; OBSERVABLES];
-        for (place, weight) in WEIGHTS.iter().enumerate() {
-            for side in [-1.0, 1.0] {
-                let time = side * step * (place + 1) as f64;
-                let (theta, omega) = moved(tree, theta, omega, time);
-                let point = Point::new(case, &theta, &omega);
+        for (side, values) in [-1.0, 1.0].into_iter().zip(&mut values) {
+            let coarser = core::mem::take(values);
+            for (place, weight) in WEIGHTS.iter().enumerate() {
+                // Two and four steps are one and two of those before.
+                values[place] = match place {
+                    1 | 3 if level > 0 => coarser[place / 2].clone(),
+                    _ => {
+                        let time = side * step * (place + 1) as f64;
+                        let (theta, omega) = moved(tree, theta, omega, time);
+                        let point = Point::new(case, &theta, &omega);
+                        let all = 0..OBSERVABLES;
+                        all.map(|number| point.observable(number).0).collect()
+                    }
+                };
                 for (number, rate) in rates.iter_mut().enumerate() {
-                    let value = point.observable(number).0;
+                    let value = values[place][number];
                     *rate += side * weight * value / step;
                     largest[number] = largest[number].max(value.abs());
                 }
