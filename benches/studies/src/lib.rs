@@ -1,7 +1,6 @@
 //! Studies of the project itself as a library, so that tests can call them.
 //!
-//! Each program in `src/bin` only calls one module of this library, except for `evaluation-speed`,
-//! which has its own modules because its many scenes take long to compile.
+//! Each program in `src/bin` only calls one module of this library.
 
 pub mod advise;
 pub mod integration_speed;

@@ -3,7 +3,6 @@
 
 use super::{run, text};
 
-const EVALUATION_SPEED: &str = env!("CARGO_BIN_EXE_evaluation-speed");
 const INTEGRATION_SPEED: &str = env!("CARGO_BIN_EXE_integration-speed");
 const STABILITY_MAP: &str = env!("CARGO_BIN_EXE_stability-map");
 const SWAYING_BRANCH: &str = env!("CARGO_BIN_EXE_swaying-branch");
@@ -13,7 +12,6 @@ const WORK_PRECISION: &str = env!("CARGO_BIN_EXE_work-precision");
 #[test]
 fn mistakes_are_named() {
     for (program, line, message) in [
-        (EVALUATION_SPEED, "--output", "a value is required"),
         (INTEGRATION_SPEED, "--output", "a value is required"),
         (
             STABILITY_MAP,
@@ -49,17 +47,8 @@ fn mistakes_are_named() {
 }
 
 #[test]
-fn implementations_agree_before_they_are_timed() {
-    let output = run(EVALUATION_SPEED, &["--check"]);
-    let error = text(&output.stderr);
-    assert!(output.status.success(), "{error}");
-    assert_eq!(text(&output.stdout), "All implementations agree.\n");
-}
-
-#[test]
 fn help_tells_usage_and_defaults() {
     for (program, reported) in [
-        (EVALUATION_SPEED, "Usage: evaluation-speed"),
         (INTEGRATION_SPEED, "Usage: integration-speed"),
         (STABILITY_MAP, "Usage: stability-map"),
         (TREE_THRESHOLDS, "[default: 5:90:0.05]"),
