@@ -116,12 +116,14 @@ impl Setup {
     }
 
     /// Returns a number as a constant.
-    pub(super) fn number(&mut self, value: Rational) -> ConstantId {
+    #[doc(hidden)]
+    pub fn number(&mut self, value: Rational) -> ConstantId {
         self.intern(ConstantOp::Number(value), None)
     }
 
     /// Returns a parameter of the scene as a constant.
-    pub(super) fn parameter(&mut self, index: usize, name: &str) -> ConstantId {
+    #[doc(hidden)]
+    pub fn parameter(&mut self, index: usize, name: &str) -> ConstantId {
         self.intern(ConstantOp::Parameter(index), Some(name))
     }
 
@@ -139,7 +141,8 @@ impl Setup {
     }
 
     /// Returns a constant with its own name and the value of `formed`.
-    pub(super) fn called(&mut self, formed: ConstantId, name: &str) -> ConstantId {
+    #[doc(hidden)]
+    pub fn called(&mut self, formed: ConstantId, name: &str) -> ConstantId {
         self.intern(ConstantOp::Called(formed), Some(name))
     }
 
@@ -169,7 +172,8 @@ impl Setup {
     }
 
     /// Returns a · b.
-    pub(super) fn mul(&mut self, a: ConstantId, b: ConstantId) -> ConstantId {
+    #[doc(hidden)]
+    pub fn mul(&mut self, a: ConstantId, b: ConstantId) -> ConstantId {
         self.combine(a, b, 1)
     }
 

@@ -14,7 +14,8 @@ impl Program {
 
     /// Removes the operations that no entry point needs. A sine or cosine is kept if its partner is
     /// needed.
-    pub(super) fn without_dead_code(mut self) -> Self {
+    #[doc(hidden)]
+    pub fn without_dead_code(mut self) -> Self {
         let outputs = self.entries.iter().flat_map(|entry| &entry.outputs);
         let mut kept: Vec<ValueId> = outputs.copied().collect();
         let turned = self.definitions.iter().zip(0..);
@@ -72,36 +73,4 @@ pub(super) fn needed(definitions: &[Definition], outputs: &[ValueId]) -> Vec<Val
         }
     }
     needed
-}
-
-#[cfg(test)]
-mod tests {
-    use crate::functions::{Argument, Purpose};
-    use crate::program::Op;
-    use crate::program::builder::Builder;
-
-    #[test]
-    fn what_nothing_uses_is_left_out() {
-        let mut builder = Builder::default();
-        let [x, y] = [0, 1].map(|index| builder.input(Argument::Theta, index));
-        let unused = builder.mul(x, y);
-        builder.sin(unused);
-        builder.sub(x, y);
-        let sum = builder.add(x, y);
-        let program = builder.program(Purpose::KineticEnergy, vec![sum]);
-        assert_eq!(program.needed(&[sum]), [x, y, sum]);
-        let pruned = program.without_dead_code();
-        assert_eq!(pruned.verify(), Ok(()));
-        let ops = pruned.definitions.iter().map(|definition| &definition.op);
-        assert!(ops.clone().all(|op| !matches!(op, Op::Sub(..))));
-        assert_eq!(ops.filter(|op| matches!(op, Op::Sin(_))).count(), 1);
-        assert_eq!(
-            *pruned
-                .definition(pruned.entries[0].outputs[0])
-                .op
-                .operands()
-                .collect::<Vec<_>>(),
-            [x, y]
-        );
-    }
 }

@@ -50,10 +50,14 @@ mod transverse;
 mod verify;
 mod wide;
 
+#[doc(hidden)]
+pub use builder::Builder;
 pub use choice::cost;
 pub use constants::{ConstantDefinition, ConstantId, ConstantOp, Setup};
 pub use count::Operations;
 pub use entry::Entry;
+#[doc(hidden)]
+pub use factors::common_factors;
 pub use fuse::FusedSum;
 pub use interpret::Interpreter;
 pub use link::{

@@ -33,28 +33,3 @@ impl Lineage {
         1 << (generation - branching)
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::Lineage;
-
-    #[test]
-    fn each_link_has_one_index_and_copies_fill_the_tree() {
-        for generations in 2..12 {
-            let own = Lineage { generations };
-            let (mut seen, mut copies) = (Vec::new(), 0);
-            for generation in 0..generations {
-                seen.push(own.open(generation));
-                copies += 1;
-                for branching in 1..=generation {
-                    seen.push(own.closed(branching, generation));
-                    copies += own.copies(branching, generation);
-                }
-            }
-            seen.sort_unstable();
-            let links = generations * (generations + 1) / 2;
-            assert_eq!(seen, (0..links).collect::<Vec<_>>());
-            assert_eq!(copies, (1 << generations) - 1);
-        }
-    }
-}

@@ -14,10 +14,12 @@ use rules::sharing::KnownOperations;
 
 /// A program under construction.
 #[derive(Clone, Default)]
-pub(super) struct Builder {
-    pub(super) definitions: Vec<Definition>,
+pub struct Builder {
+    /// The values so far, in their order.
+    pub definitions: Vec<Definition>,
     known: KnownOperations,
-    pub(super) setup: Setup,
+    /// The constants so far.
+    pub setup: Setup,
     /// Pass that is left out, for comparison.
     pub(super) off: Option<Pass>,
     /// Value that replaces all further values once there are too many.
@@ -44,7 +46,7 @@ impl Builder {
     ///
     /// # Errors
     /// [`TooManyValues`] if there would be more than [`MOST_VALUES`].
-    pub(super) fn finish(
+    pub fn finish(
         self,
         entries: Vec<Entry>,
         choice: SolveChoice,
@@ -62,7 +64,8 @@ impl Builder {
         })
     }
 
-    pub(super) fn op(&self, id: ValueId) -> &Op {
+    /// Returns the operation of a value.
+    pub fn op(&self, id: ValueId) -> &Op {
         &self.definitions[id.0 as usize].op
     }
 
@@ -120,7 +123,7 @@ impl Builder {
     /// Names a value, unless it has a name or is an input or a constant; for a constant the name is
     /// a hint. A change of sign costs nothing in the operation that uses it, so its operand is
     /// named instead.
-    pub(super) fn name(&mut self, id: ValueId, name: &str) -> ValueId {
+    pub fn name(&mut self, id: ValueId, name: &str) -> ValueId {
         if let Op::Constant(constant) = *self.op(id) {
             self.setup.hint(constant, name);
             return id;
@@ -160,7 +163,8 @@ impl Builder {
         }
     }
 
-    pub(super) fn input(&mut self, argument: Argument, index: usize) -> ValueId {
+    /// Returns an element of an argument.
+    pub fn input(&mut self, argument: Argument, index: usize) -> ValueId {
         self.record(Op::Input(argument, index))
     }
 
@@ -168,11 +172,13 @@ impl Builder {
         self.record(Op::Number(value))
     }
 
-    pub(super) fn integer(&mut self, value: i64) -> ValueId {
+    /// Returns a whole number.
+    pub fn integer(&mut self, value: i64) -> ValueId {
         self.number(Rational::from(value))
     }
 
-    pub(super) fn constant(&mut self, id: ConstantId) -> ValueId {
+    /// Returns a constant of the model.
+    pub fn constant(&mut self, id: ConstantId) -> ValueId {
         match &self.setup.get(id).op {
             ConstantOp::Number(number) => {
                 let number = number.clone();
@@ -182,7 +188,8 @@ impl Builder {
         }
     }
 
-    pub(super) fn sin(&mut self, angle: ValueId) -> ValueId {
+    /// Returns the sine of an angle.
+    pub fn sin(&mut self, angle: ValueId) -> ValueId {
         self.record(Op::Sin(angle))
     }
 
@@ -218,7 +225,7 @@ impl Builder {
     }
 
     /// Returns the value as a constant of the setup, or `None` if it depends on an input.
-    pub(super) fn as_constant(&mut self, id: ValueId) -> Option<ConstantId> {
+    pub fn as_constant(&mut self, id: ValueId) -> Option<ConstantId> {
         match self.op(id).clone() {
             Op::Constant(constant) => Some(constant),
             Op::Number(number) => Some(self.setup.number(number)),
@@ -226,23 +233,28 @@ impl Builder {
         }
     }
 
-    pub(super) fn neg(&mut self, a: ValueId) -> ValueId {
+    /// Returns −a.
+    pub fn neg(&mut self, a: ValueId) -> ValueId {
         self.form(Op::Neg(a))
     }
 
-    pub(super) fn add(&mut self, a: ValueId, b: ValueId) -> ValueId {
+    /// Returns a + b.
+    pub fn add(&mut self, a: ValueId, b: ValueId) -> ValueId {
         self.form(Op::Add(a, b))
     }
 
-    pub(super) fn sub(&mut self, a: ValueId, b: ValueId) -> ValueId {
+    /// Returns a − b.
+    pub fn sub(&mut self, a: ValueId, b: ValueId) -> ValueId {
         self.form(Op::Sub(a, b))
     }
 
-    pub(super) fn mul(&mut self, a: ValueId, b: ValueId) -> ValueId {
+    /// Returns a b.
+    pub fn mul(&mut self, a: ValueId, b: ValueId) -> ValueId {
         self.form(Op::Mul(a, b))
     }
 
-    pub(super) fn div(&mut self, a: ValueId, b: ValueId) -> ValueId {
+    /// Returns a/b.
+    pub fn div(&mut self, a: ValueId, b: ValueId) -> ValueId {
         self.form(Op::Div(a, b))
     }
 }
@@ -286,31 +298,5 @@ impl Builder {
             },
             _ => false,
         }
-    }
-}
-
-#[cfg(test)]
-impl Builder {
-    /// Creates a program with one entry point, for tests of passes.
-    pub(super) fn program(
-        self,
-        purpose: crate::functions::Purpose,
-        outputs: Vec<ValueId>,
-    ) -> Program {
-        let choice = SolveChoice {
-            solve: crate::scene::Solve::Factorization,
-            factorization: Default::default(),
-            recursion: Default::default(),
-        };
-        let entry = Entry {
-            name: "outputs".to_owned(),
-            purpose,
-            arguments: vec![Argument::Theta],
-            outputs,
-            shape: crate::functions::ResultShape::Vector,
-        };
-        let program = self.finish(vec![entry], choice).expect("a small program");
-        assert_eq!(program.verify(), Ok(()));
-        program
     }
 }

@@ -31,8 +31,6 @@
 //! rest is one pass over every entry point, times a logarithm.
 
 mod extract;
-#[cfg(test)]
-mod tests;
 
 use super::builder::Builder;
 use super::{Definition, Entry, Op, Program, TooManyValues, ValueId};
@@ -42,7 +40,7 @@ use std::collections::{BTreeMap, HashMap};
 
 /// Extracts common factors in the entry points that take fewer operations afterwards. If there are
 /// none, the program is returned unchanged, including the indices of its values.
-pub(super) fn common_factors(program: Program) -> Program {
+pub fn common_factors(program: Program) -> Program {
     let all = vec![true; program.entries.len()];
     let (factored, changed) = factored(&program, &all);
     let mut chosen = changed.clone();

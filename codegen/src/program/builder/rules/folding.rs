@@ -63,28 +63,3 @@ fn scaled(builder: &mut Builder, a: ValueId, b: ValueId) -> Option<ValueId> {
     }
     None
 }
-
-#[cfg(test)]
-mod tests {
-    use crate::exact::Rational;
-    use crate::functions::Argument;
-    use crate::program::Op;
-    use crate::program::builder::Builder;
-
-    #[test]
-    fn constants_meet_exactly() {
-        let mut builder = Builder::default();
-        let x = builder.input(Argument::Theta, 0);
-        let [two, three] = [2, 3].map(|number| builder.integer(number));
-        let third_exactly = Rational::from(3).checked_pow(-1).expect("3 is not zero");
-        let third = builder.div(two, three);
-        assert_eq!(
-            *builder.op(third),
-            Op::Number(Rational::from(2) * third_exactly)
-        );
-        // (2/3 x) · 3 / 2: no constant remains.
-        let scaled = builder.mul(third, x);
-        let back = builder.mul(scaled, three);
-        assert_eq!(builder.div(back, two), x);
-    }
-}

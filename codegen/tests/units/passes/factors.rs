@@ -1,9 +1,10 @@
 //! Small programs before and after the extraction of common factors.
 
-use super::common_factors;
-use crate::functions::{Argument, Purpose};
-use crate::program::builder::Builder;
-use crate::program::{Op, Program, ValueId};
+use super::program_of;
+use branched_pendulum_codegen::functions::{Argument, Purpose};
+use branched_pendulum_codegen::program::Builder;
+use branched_pendulum_codegen::program::common_factors;
+use branched_pendulum_codegen::program::{Op, Program, ValueId};
 use rand_xoshiro::SplitMix64;
 use rand_xoshiro::rand_core::{Rng, SeedableRng};
 
@@ -14,7 +15,7 @@ fn inputs<const N: usize>(builder: &mut Builder) -> [ValueId; N] {
 /// Runs the pass, and returns the program before and after it. Checks that both are valid and have
 /// equal values for whole numbers, which are not rounded.
 fn pass(builder: Builder, purpose: Purpose, outputs: Vec<ValueId>) -> [Program; 2] {
-    let before = builder.program(purpose, outputs);
+    let before = program_of(builder, purpose, outputs);
     let after = common_factors(before.clone());
     assert_eq!(after.verify(), Ok(()));
     for seed in 1..20_usize {
