@@ -26,7 +26,6 @@ LIBRARY = ["-p", "branched-pendulum", "--lib"]
 RUNTIME = ["-p", "branched-pendulum", "--test", "runtime"]
 DATA = ["-p", "branched-pendulum-data", "--test", "data"]
 MEASURE = ["-p", "branched-pendulum-measure", "--test", "measure"]
-MEASURE_LIBRARY = ["-p", "branched-pendulum-measure", "--lib"]
 OUTSIDE = ["-p", "branched-pendulum-tests", "--test", "outside"]
 
 BOTH_SOLVES = "solves::both_agree_with_the_oracle_and_each_other"
@@ -212,9 +211,6 @@ EXPRESSIONS = [
      "dense_regression::a_white_jerk"),
     ("noise of angles by white torques", f"{M}/smoothing/model_filter.rs",
      "h.powi(3) / 3.0", "h.powi(3) / 2.0", MEASURE, "dense_regression::white_torques"),
-    ("correlation of sine and cosine of a line", f"{M}/spectrum/fit.rs",
-     "2.0 * c * s * all[(first, first + 1)]", "0.0 * c * s * all[(first, first + 1)]",
-     MEASURE_LIBRARY, "spectrum::fit"),
     ("deviations along the first coordinates", f"{R}/analysis/variational/lyapunov.rs",
      "let mut vectors: Vec<f64> = parts.collect();",
      "let mut vectors: Vec<f64> = DMatrix::identity(dimension, count).as_slice().to_vec();",
@@ -244,6 +240,9 @@ CONSTANTS = [
      "0.5538640526394373", "0.5538640526404373", LIBRARY, "verner98"),
     ("a node of Gauss in the 12th digit", f"{R}/integrate/piece/collocation/tables.rs",
      "nodes: &[0.2113248654051871,", "nodes: &[0.2113248654061871,", LIBRARY, "collocation::tables"),
+    ("correlation of sine and cosine of a line", f"{M}/spectrum/fit.rs",
+     "2.0 * c * s * all[(first, first + 1)]", "0.0 * c * s * all[(first, first + 1)]",
+     MEASURE, "units::fit"),
     ("minutes are seconds", f"{D}/units.rs",
      '(&["min", "minutes"], Unit::Time(60.0))', '(&["min", "minutes"], Unit::Time(1.0))', DATA,
      "cells::units_of_time_are_seconds"),

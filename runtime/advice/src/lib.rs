@@ -65,6 +65,8 @@ mod comparison;
 mod error;
 mod extrapolation;
 mod form;
+#[cfg(feature = "trees")]
+mod frames;
 mod integrated;
 mod paths;
 mod report;

@@ -17,6 +17,7 @@ use crate::candidates::Candidates;
 use crate::choice::TimeLimit;
 use crate::error::AdviceError;
 use crate::form::ModelForm;
+use crate::frames::frame;
 use crate::report::Advice;
 use crate::wanted::Wanted;
 
@@ -127,9 +128,6 @@ const PIXELS: f64 = 1000.0;
 /// Largest drift of the energy after the motion has become unpredictable, in J.
 const DRIFT: f64 = 1e-6;
 
-/// Largest difference between the lengths of frames, as a fraction of a frame.
-const AWAY: f64 = 1e-6;
-
 impl TreeScene {
     /// Measures all candidates and chooses among them like [`Advisor::advise`].
     ///
@@ -169,7 +167,7 @@ impl TreeScene {
     fn candidates<'a>(&self, tree: &'a PendulumTree) -> Candidates<'a> {
         let full = ModelForm::new("full").read_at_run_time();
         let mut candidates = Candidates::new();
-        if let Some(frame) = self.frame()
+        if let Some(frame) = frame(&self.starts, &self.times)
             && let Some(first) = self.starts.first()
         {
             let theta = first.values.get(..tree.links()).unwrap_or_default();
@@ -197,20 +195,6 @@ impl TreeScene {
             _ => candidates.lanes(&full, AbsoluteAngles(tree)),
         }
     }
-
-    /// Returns the length of the frames (s) at whose ends all times lie; `None` if the times are
-    /// spaced unevenly.
-    fn frame(&self) -> Option<f64> {
-        let begin = self.starts.first()?.time;
-        let frame = self.times.first()? - begin;
-        let is_end = |(time, number): (&f64, u32)| {
-            let frames = (time - begin) / frame;
-            (frames - f64::from(number)).abs() <= AWAY
-        };
-        let are_ends = frame > 0.0 && self.times.iter().zip(1..).all(is_end);
-        let began = self.starts.iter().all(|start| start.time == begin);
-        (are_ends && began).then_some(frame)
-    }
 }
 
 /// Returns true if the tree has no drive and no friction.
@@ -237,36 +221,4 @@ fn transfer(symmetric: &SymmetricTree<f64>, tolerance: f64) -> Wanted<'_> {
         symmetric.exact_transfers(workspace, given, transfers);
         out.extend(transfers.get(1).map(|transfer| transfer.total()));
     })
-}
-
-#[cfg(test)]
-mod tests {
-    use super::{TreeOutput, TreeScene};
-    use branched_pendulum::system::State;
-
-    #[test]
-    fn names_of_outputs_are_read_back() {
-        for &output in TreeOutput::ALL {
-            assert_eq!(output.to_string().parse(), Ok(output));
-        }
-        let refused = "angle".parse::<TreeOutput>().unwrap_err().to_string();
-        assert_eq!(
-            refused,
-            "there is no output `angle` (outputs: angles, energy, pixels, transfer)"
-        );
-    }
-
-    #[test]
-    fn frames_are_those_at_whose_ends_all_times_are() {
-        let scene = |times: &[f64]| TreeScene {
-            starts: vec![State::at_rest(1.0, &[0.1])],
-            times: times.to_vec(),
-            right: Vec::new(),
-            limit: None,
-        };
-        assert_eq!(scene(&[1.5, 2.0, 2.5]).frame(), Some(0.5));
-        assert_eq!(scene(&[1.5, 2.0, 2.6]).frame(), None);
-        assert_eq!(scene(&[0.5, 0.0]).frame(), None);
-        assert_eq!(scene(&[]).frame(), None);
-    }
 }

@@ -55,16 +55,3 @@ pub fn time_for(points: &[Point], error: f64) -> Option<f64> {
     let reached = points.iter().filter(|point| point.error <= error);
     reached.map(|point| point.micros).reduce(f64::min)
 }
-
-#[cfg(test)]
-mod tests {
-    use super::{Point, time_for};
-
-    #[test]
-    fn the_least_time_that_reaches_the_error() {
-        let point = |error, micros| Point { error, micros };
-        let points = [point(1e-2, 1.0), point(1e-4, 3.0), point(1e-4, 2.0)];
-        assert_eq!(time_for(&points, 1e-3), Some(2.0));
-        assert_eq!(time_for(&points, 1e-5), None);
-    }
-}

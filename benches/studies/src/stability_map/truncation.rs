@@ -43,7 +43,8 @@ impl Worth {
         }
     }
 
-    fn of(error: f64) -> Self {
+    /// Returns the class of an error relative to the transfer.
+    pub fn of(error: f64) -> Self {
         if error <= 0.01 {
             Self::Accurate
         } else if error < 1.0 {
@@ -185,35 +186,4 @@ fn chart(places: &[FormError]) -> Chart {
         let panel = Panel::new(Axis::linear(format!("{form}: θ_1(0) (°)")));
         chart.panel(panel.heatmap(&x, &y, &errors, &LEVELS))
     })
-}
-
-#[cfg(test)]
-mod tests {
-    use super::{Worth, after};
-
-    /// Checks that the published form is never accurate, that a higher order is never worse at
-    /// small amplitudes, and that no order is accurate at the largest.
-    #[test]
-    fn orders_reach_further_one_after_the_other() {
-        let places = after(45.0).unwrap();
-        let reach = |form: usize| {
-            let own = places.iter().skip(form).step_by(5);
-            own.take_while(|place| Worth::of(place.error) == Worth::Accurate)
-                .last()
-                .map_or(0.0, |place| place.amplitude)
-        };
-        let reaches: Vec<f64> = (0..5).map(reach).collect();
-        assert_eq!(reaches[0], 0.0);
-        assert!(reaches[1] > 0.1 && reaches[2] > 0.5, "{reaches:?}");
-        assert!(reaches.windows(2).all(|pair| pair[0] <= pair[1]));
-        let half_a_radian = places.chunks(5).find(|row| row[0].amplitude > 0.5);
-        let orders = &half_a_radian.unwrap()[1..];
-        assert!(
-            orders
-                .windows(2)
-                .all(|pair| pair[1].error < 0.3 * pair[0].error)
-        );
-        let last = &places[places.len() - 5..];
-        assert!(last.iter().all(|place| place.error > 0.1), "{last:?}");
-    }
 }

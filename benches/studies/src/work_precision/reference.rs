@@ -59,7 +59,7 @@ pub fn problems(ends: &[f64]) -> Result<Vec<Problem>, Failure> {
 }
 
 /// The problems of the file.
-fn papers() -> Vec<Problem> {
+pub fn papers() -> Vec<Problem> {
     let regular = [0.3, 1e-3, -1e-3];
     let threshold = [47.8_f64.to_radians(), 1e-3, -1e-3];
     let paper = |name, key, start: [f64; 3], time: &str| Problem {
@@ -82,7 +82,7 @@ fn papers() -> Vec<Problem> {
 
 /// Initial angles of the seven rods in rad, ordered as the root, then each child followed by its
 /// own children.
-const RODS: [f64; 7] = [0.08, 0.005, 0.002, -0.001, -0.005, 0.0015, -0.003];
+pub const RODS: [f64; 7] = [0.08, 0.005, 0.002, -0.001, -0.005, 0.0015, -0.003];
 
 /// Tolerance of the rods' reference.
 const TOLERANCE: f64 = 1e-24;
@@ -117,41 +117,4 @@ fn numbers(text: &str, keys: &[&str]) -> Vec<f64> {
         let parts = array.split('"');
         parts.filter_map(|part| part.parse().ok()).collect()
     })
-}
-
-#[cfg(test)]
-mod tests {
-    use super::{RODS, papers, problems, rods_at};
-    use crate::scenes::Rods;
-    use branched_pendulum::prelude::*;
-
-    #[test]
-    fn all_problems_are_there() {
-        let problems = papers();
-        for problem in &problems {
-            assert_eq!(problem.start.len(), 3);
-            assert_eq!(problem.expected.len(), 6, "{problem:?}");
-            assert!(problem.end >= 10.0);
-        }
-        // By eye, from the file.
-        assert_eq!(problems[0].expected[0], -0.13514683809607428);
-        assert_eq!(problems[2].expected[5], -8.352998681130677);
-    }
-
-    /// Checks that the orders and steps for another tolerance give the same digits, and so does
-    /// another method to within its accuracy.
-    #[test]
-    fn the_reference_of_the_rods_does_not_depend_on_how_it_is_computed() {
-        let problems = problems(&[10.0]).unwrap();
-        assert_eq!(problems.len(), 3);
-        let found = &problems[2].expected;
-        let other = rods_at(10.0, 1e-28).unwrap();
-        let method = Verner98::new(Options::with_tolerance(1e-14));
-        let (model, start) = (Rods::new(), State::at_rest(0.0, &RODS));
-        let verner = method.run(&AbsoluteAngles(&model), &start, 10.0).unwrap();
-        for ((found, other), verner) in found.iter().zip(&other).zip(&verner.state.values) {
-            assert!((found - other).abs() <= f64::EPSILON * found.abs());
-            assert!((found - verner).abs() < 1e-11, "{found} {verner}");
-        }
-    }
 }

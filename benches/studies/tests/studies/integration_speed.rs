@@ -3,7 +3,7 @@
 use branched_pendulum::integrate::IntegrationError;
 use branched_pendulum::prelude::*;
 use branched_pendulum_studies::integration_speed::ensemble::near_threshold;
-use branched_pendulum_studies::integration_speed::measure::points;
+use branched_pendulum_studies::integration_speed::measure::{Point, points, time_for};
 use branched_pendulum_studies::scenes::{BranchedDouble, Rods};
 use branched_pendulum_studies::work_precision::reference::problems;
 
@@ -67,4 +67,12 @@ fn lanes_are_as_accurate_as_the_plain_method_near_the_threshold() {
         assert!(lanes.1 < 4.0 * plain.1, "{plain:?} {lanes:?}");
         assert!(plain.0 < 1e-8, "{plain:?}");
     }
+}
+
+#[test]
+fn the_least_time_that_reaches_the_error() {
+    let point = |error, micros| Point { error, micros };
+    let points = [point(1e-2, 1.0), point(1e-4, 3.0), point(1e-4, 2.0)];
+    assert_eq!(time_for(&points, 1e-3), Some(2.0));
+    assert_eq!(time_for(&points, 1e-5), None);
 }

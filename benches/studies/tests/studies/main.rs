@@ -3,11 +3,14 @@
 
 use std::process::{Command, Output};
 
+mod advise;
 mod command_lines;
 mod integration_speed;
 mod solvers;
+mod stability_map;
 mod swaying_branch;
 mod tree_thresholds;
+mod work_precision;
 
 /// Runs a program to its end.
 fn run(program: &str, arguments: &[&str]) -> Output {

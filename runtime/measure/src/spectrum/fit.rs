@@ -251,8 +251,8 @@ pub(super) fn phase_at_start(wave: &Wave, count: usize) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    use super::super::Window;
     use super::{Wave, WaveFit};
-    use crate::spectrum::Window;
 
     /// Checks the variances against the sum, over all samples, of the squared changes that each
     /// sample causes; for few cycles and any phase, where cosine, sine and frequency are

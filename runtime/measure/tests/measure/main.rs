@@ -12,3 +12,4 @@ mod lines;
 mod normal;
 mod smoothing;
 mod spectrum;
+mod units;
