@@ -2,6 +2,7 @@
 //! two modules name each other.
 
 mod arms;
+mod targets;
 mod uses;
 
 use branched_pendulum_compiler_tests::source::fixture;
@@ -81,6 +82,7 @@ const PACKAGES: &[&str] = &[
     "runtime/python",
     "runtime/trees",
     "runtime/web",
+    "benches/evaluation",
     "benches/studies",
 ];
 
