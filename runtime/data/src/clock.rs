@@ -161,12 +161,23 @@ fn time_column(table: &Table) -> Result<usize, ReadError> {
             return Ok(column);
         }
     }
+    if let Some(column) = columns.iter().position(is_unit_of_time) {
+        return Ok(column);
+    }
     let is_bare = table.kind() == FileKind::Wide && columns[0].name == "column 1";
     let first = (0..columns.len()).find(|&column| !is_trial(table, column));
     is_bare
         .then_some(first)
         .flatten()
         .ok_or_else(|| table.refused(ReadErrorKind::NoTime))
+}
+
+/// Returns true if the name of a column is a unit of time: `ms`, `µs`.
+fn is_unit_of_time(column: &Column) -> bool {
+    // A column `s` or `min` may be something else.
+    const SHORTEST: usize = 2;
+    let is_long = column.name.chars().count() >= SHORTEST && column.name != "min";
+    column.unit.is_empty() && is_long && seconds(&column.name).is_some()
 }
 
 /// Returns true if a column contains whole numbers that mostly equal those in the row above, as the
@@ -260,8 +271,11 @@ fn scale(
     basis: Basis,
     findings: &mut Vec<Finding>,
 ) -> Result<f64, ReadError> {
-    let Column { name, unit } = &table.columns()[column];
-    let unit = given.unwrap_or(unit);
+    let own @ Column { name, unit } = &table.columns()[column];
+    let unit = given.unwrap_or(match is_unit_of_time(own) && !is_time(name) {
+        true => name,
+        false => unit,
+    });
     if unit.is_empty() {
         let values = || {
             table

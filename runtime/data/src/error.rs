@@ -5,7 +5,7 @@ use std::io;
 use std::path::PathBuf;
 
 use super::cell::hint;
-use super::finding::counted;
+use super::finding::{counted, rounded};
 use super::place::{Place, Sheet};
 
 /// Error in reading a file: its position and reason.
@@ -242,15 +242,16 @@ pub enum ReadErrorKind {
     },
     /// Angles without variance.
     #[error(
-        "the angles of `{name}` never change: all {count} are {value} rad, so they show no \
-         motion; name the columns of links that move, or leave this one out"
+        "the angles of `{name}` never change: all {count} are {} rad, so they show no motion; name the \
+         columns of links that move, or leave this one out",
+        rounded(*value, 5)
     )]
     Still {
         /// The link.
         name: String,
         /// Number of its angles.
         count: usize,
-        /// The angle.
+        /// The angle, in rad.
         value: f64,
     },
     /// More columns could be angles than a tree may have links.
@@ -346,12 +347,12 @@ fn succession(column: Option<&str>) -> String {
     }
 }
 
-/// Returns the remedy if two rows have the same time.
+/// Returns the remedy for a row whose time is not later than the one before.
 fn repeated(previous: f64, time: f64) -> &'static str {
     if time == previous {
         "; say which row of one time counts, the first or the last"
     } else {
-        ""
+        "; correct this time, or remove the row"
     }
 }
 

@@ -190,7 +190,7 @@ impl Meaning {
 
 /// Returns true if a name means time.
 pub(crate) fn is_time(name: &str) -> bool {
-    const TIMES: [&str; 19] = [
+    const TIMES: [&str; 21] = [
         "t",
         "time",
         "times",
@@ -206,6 +206,8 @@ pub(crate) fn is_time(name: &str) -> bool {
         "时间",
         "timestamp",
         "timestamps",
+        "stamp",
+        "stamps",
         "seconds",
         "elapsed",
         "millis",

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use super::error::{ReadError, ReadErrorKind};
-use super::finding::{Basis, Finding, counted, listed, moment, moments};
+use super::finding::{Basis, Finding, counted, listed, moment, moments, rounded};
 use super::leaps;
 use super::outliers::{self, Marked};
 use super::sample::Sample;
@@ -84,6 +84,7 @@ impl Recording {
         } = times;
         let mut findings = table.findings().to_vec();
         findings.extend(of_times.into_iter().chain(of_angles));
+        findings.extend(flickering(&links, resolutions));
         let mut all = Vec::with_capacity(links.len());
         for (link, resolution) in links.iter_mut().zip(resolutions) {
             let turns = turns::count(&seconds, &mut link.samples, &timing);
@@ -282,22 +283,52 @@ pub(crate) fn check_motion(table: &Table, links: &[LinkSeries]) -> Result<(), Re
     }
 }
 
-/// Returns the error for a link whose angles are all equal, if there is one.
+/// Returns the number of angles of a link, the smallest and the largest one.
+fn range(link: &LinkSeries) -> (usize, [f64; 2]) {
+    let all = 0..link.samples.len();
+    let angles = all.filter_map(|index| link.angle(index));
+    let none = (0, [f64::INFINITY, f64::NEG_INFINITY]);
+    angles.fold(none, |(count, [least, most]), angle| {
+        (count + 1, [least.min(angle), most.max(angle)])
+    })
+}
+
+/// Returns the error for a link whose angles are all equal except for the rounding of `f64`, if
+/// there is one.
 fn still(links: &[LinkSeries]) -> Option<ReadErrorKind> {
     /// Smallest number of angles from which on a link must move.
     const FEWEST: usize = 5;
+    /// Range of angles, relative to the largest one, that is caused by rounding.
+    const ROUNDING: f64 = 1e-14;
     links.iter().find_map(|link| {
-        let all = 0..link.samples.len();
-        let mut angles = all.filter_map(|index| link.angle(index));
-        let value = angles.next()?;
-        let mut count = 1;
-        let is_still = angles.inspect(|_| count += 1).all(|angle| angle == value);
+        let (count, [least, most]) = range(link);
+        let is_still = most - least <= ROUNDING * most.abs().max(least.abs());
         (is_still && count >= FEWEST).then(|| ReadErrorKind::Still {
             name: link.name.clone(),
             count,
-            value,
+            value: least,
         })
     })
+}
+
+/// Returns a finding for each link whose angles change by at most two of the steps to which they
+/// are rounded, as an encoder at rest flickers between neighbouring counts.
+fn flickering(links: &[LinkSeries], resolutions: &[f64]) -> Vec<Finding> {
+    const STEPS: f64 = 2.0 + 1e-6;
+    let links = links.iter().zip(resolutions);
+    let finding = |(link, step): (&LinkSeries, &f64)| {
+        let (_, [least, most]) = range(link);
+        (*step > 0.0 && most - least <= STEPS * step).then(|| {
+            let [range, step] = [most - least, *step].map(|angle| rounded(angle, 2));
+            let text = format!(
+                "the angles of `{}` change by {range} rad and are rounded to {step} rad: they show \
+                 no motion",
+                link.name
+            );
+            Finding::new(Basis::Doubtful, text)
+        })
+    };
+    links.filter_map(finding).collect()
 }
 
 /// Returns an error if angles have so many turns that a single turn is lost in their rounding.

@@ -64,11 +64,13 @@ fn in_succession(times: &[Option<f64>]) -> Option<Recordings> {
     let mut of_rows = Vec::with_capacity(times.len());
     let first = times.iter().flatten().next()?;
     let (mut start, mut last, mut count) = (*first, *first, 0);
-    for time in times {
+    for (row, time) in times.iter().enumerate() {
         let time = time.unwrap_or(last);
         if time < last {
-            // A clock that is set back by a little does not start again.
-            if time - start > 0.5 * (last - start) {
+            // A clock that is set back by a little does not start again, nor does one of which a
+            // few times are wrong.
+            let behind = times[row..].iter().take(FEWEST).flatten();
+            if time - start > 0.5 * (last - start) || behind.into_iter().any(|own| *own > last) {
                 return None;
             }
             start = time;
@@ -128,28 +130,87 @@ fn rounded_rate(table: &Table, times: &[Option<f64>]) -> Option<(f64, i32)> {
     {
         return None;
     }
-    let count = times.len() as f64;
-    let middle = 0.5 * (count - 1.0);
-    let start = times[0];
-    let mean = times.iter().map(|time| time - start).sum::<f64>() / count;
-    let sums = times
-        .iter()
-        .enumerate()
-        .fold([0.0; 2], |sums, (row, time)| {
-            let row = row as f64 - middle;
-            [sums[0] + row * (time - start - mean), sums[1] + row * row]
-        });
-    let interval = sums[0] / sums[1];
     let steps = times.windows(2).map(|pair| pair[1] - pair[0]);
     let largest = steps.fold(0.0, f64::max);
-    let is_even = times.iter().enumerate().all(|(row, time)| {
-        let even = start + mean + (row as f64 - middle) * interval;
-        (time - even).abs() <= largest
-    });
-    // Deviation of the slope, of a rounding by up to the largest step.
-    let error = largest / (interval * count.powf(1.5));
-    let digits = (-error.log10()).floor().clamp(2.0, 6.0) as i32;
-    (is_even && interval > 0.0).then_some((1.0 / interval, digits))
+    let EvenTimes { interval, farthest } = EvenTimes::through(&times);
+    (farthest <= largest && interval > 0.0)
+        .then(|| (1.0 / interval, digits(interval, largest, times.len())))
+}
+
+/// Returns the number of digits of a rate that times determine which are rounded to `step`.
+fn digits(interval: f64, step: f64, count: usize) -> i32 {
+    // Deviation of the slope.
+    let error = step / (interval * (count as f64).powf(1.5));
+    (-error.log10()).floor().clamp(2.0, 6.0) as i32
+}
+
+/// Evenly spaced times that come nearest to the times of rows.
+struct EvenTimes {
+    /// Their interval, s.
+    interval: f64,
+    /// Largest distance of a row's time from the even one, s.
+    farthest: f64,
+}
+
+impl EvenTimes {
+    /// Fits a straight line by least squares.
+    fn through(times: &[f64]) -> Self {
+        let count = times.len() as f64;
+        let middle = 0.5 * (count - 1.0);
+        let start = times.first().copied().unwrap_or_default();
+        let mean = times.iter().map(|time| time - start).sum::<f64>() / count;
+        let rows = || {
+            let rows = times.iter().enumerate();
+            rows.map(move |(row, time)| [row as f64 - middle, time - start - mean])
+        };
+        let sums = rows().fold([0.0; 2], |sums, [row, time]| {
+            [sums[0] + row * time, sums[1] + row * row]
+        });
+        let interval = sums[0] / sums[1];
+        let distances = rows().map(|[row, time]| (time - row * interval).abs());
+        Self {
+            interval,
+            farthest: distances.fold(0.0, f64::max),
+        }
+    }
+}
+
+/// Returns a finding about times without repetition that are rounded so much that the motion is
+/// distorted, although rows are evenly spaced.
+pub(crate) fn rounding(times: &[f64]) -> Option<Finding> {
+    /// Largest number of digits after the decimal point.
+    const DIGITS: i32 = 6;
+    /// Fewest rows.
+    const ROWS: usize = 20;
+    /// Length of an interval, in units of the last digit, from which on rounding does not matter.
+    const FINE: f64 = 10.0;
+    /// Fraction of intervals below which a length of them is rare.
+    const RARE: f64 = 0.1;
+    let is_rounded = |digits: &i32| {
+        let scale = 10.0_f64.powi(*digits);
+        times.iter().all(|time| {
+            let scaled = time * scale;
+            (scaled - scaled.round()).abs() <= 1e-6 + 4.0 * f64::EPSILON * scaled.abs()
+        })
+    };
+    let step = 10.0_f64.powi(-(0..=DIGITS).find(is_rounded)?);
+    let EvenTimes { interval, farthest } = EvenTimes::through(times);
+    // Rounding alone, of all rows.
+    let is_even = (0.25 * step..=0.55 * step).contains(&farthest);
+    // Single rows that are lost look like a slower rate.
+    let steps = times.windows(2).map(|pair| pair[1] - pair[0]);
+    let shorter = steps.filter(|own| *own < interval).count() as f64 / times.len() as f64;
+    let is_alternating = (RARE..=1.0 - RARE).contains(&shorter);
+    let is_coarse = interval > 0.0 && interval < FINE * step;
+    if times.len() < ROWS || !(is_coarse && is_even && is_alternating) {
+        return None;
+    }
+    let rate = super::finding::rounded(1.0 / interval, digits(interval, step, times.len()));
+    let text = format!(
+        "times are rounded to {step} s: the rows are evenly spaced, {rate} per second; with that frame \
+         rate in place of the times, errors of angles are smaller"
+    );
+    Some(Finding::new(Basis::Doubtful, text))
 }
 
 /// Returns true if all cells of a row equal those of the row above.

@@ -5,7 +5,7 @@ use std::ops::Range;
 use super::clock::{Clock, TimeColumns};
 use super::error::{ReadError, ReadErrorKind};
 use super::finding::{Basis, Finding, listed, moment, rounded};
-use super::succession::{check_joined, disorder};
+use super::succession::{check_joined, disorder, rounding};
 use super::table::Table;
 
 /// How evenly spaced the times of samples are.
@@ -97,8 +97,9 @@ impl Timing {
         self.gaps.get(next).is_some_and(|gap| gap.end <= to)
     }
 
-    /// Returns findings about the sampling rate, or the unevenness of the times, and about gaps.
-    fn findings(&self, times: &[f64]) -> [Option<Finding>; 3] {
+    /// Returns findings about the sampling rate or the unevenness of the times, about gaps and
+    /// about rounding.
+    fn findings(&self, times: &[f64]) -> [Option<Finding>; 4] {
         let steps: Vec<f64> = times.windows(2).map(|pair| pair[1] - pair[0]).collect();
         let text = if are_uneven(&steps, self.interval) {
             let shortest = steps.iter().copied().fold(f64::INFINITY, f64::min);
@@ -120,7 +121,7 @@ impl Timing {
         let gaps = (gaps.len() > 0).then(|| format!("no rows between {}", listed(gaps)));
         let [text, gaps] =
             [Some(text), gaps].map(|text| Some(Finding::new(Basis::Detected, text?)));
-        [self.jump(times), text, gaps]
+        [self.jump(times), rounding(times), text, gaps]
     }
 
     /// Returns a finding about a gap that is longer than the rest of the record, which means that

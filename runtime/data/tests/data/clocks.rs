@@ -88,12 +88,94 @@ fn the_time_starts_again() {
         |row| 0.01 * row as f64,
         1e-12,
     );
-    // One row that is out of order is no recording.
-    let text = "time,a\n0.0,0.1\n0.1,0.2\n0.2,0.3\n0.15,0.25\n0.3,0.3\n0.4,0.4\n";
-    let error = read(text, Clock::Detect).unwrap_err();
-    assert!(
-        error.ends_with("time 0.15 s does not come after 0.2 s"),
-        "{error}"
+    // One or two rows that are out of order are no recording.
+    for (wrong, times) in [
+        (3, &[0.0, 0.1, 0.2, 0.15, 0.3, 0.4][..]),
+        (5, &[10.0, 10.1, 10.2, 10.3, 10.4, 0.0, 10.6, 10.7, 10.8]),
+        (
+            4,
+            &[
+                1.69e9 + 0.5,
+                1.69e9 + 1.0,
+                1.69e9 + 2.0,
+                1.69e9 + 3.0,
+                -1.0,
+                0.0,
+                1.69e9 + 6.0,
+                1.69e9 + 7.0,
+            ],
+        ),
+    ] {
+        let rows = times
+            .iter()
+            .map(|time| format!("{time},{:.4}\n", swing(*time)));
+        let text = format!("time,a\n{}", rows.collect::<String>());
+        let error = read(&text, Clock::Detect).unwrap_err();
+        let expected = format!(
+            "time {} s does not come after {} s; correct this time, or remove the row",
+            times[wrong],
+            times[wrong - 1]
+        );
+        assert!(error.ends_with(&expected), "{error}");
+    }
+}
+
+/// Times without repetition that are rounded too much are reported, with the frame rate.
+#[test]
+fn times_of_few_digits_are_reported() {
+    let text = |rate: f64, digits: usize, jitter: f64| {
+        let rows = (0..150).map(|row: u32| {
+            let noise = jitter * (f64::from(row * row % 17) / 8.0 - 1.0);
+            let time = f64::from(row) / rate + noise;
+            format!("{time:.digits$},{:.6}\n", swing(time))
+        });
+        format!("t (s),a (rad)\n{}", rows.collect::<String>())
+    };
+    for (rate, digits, jitter, reported_rate) in [
+        (60.0, 2, 0.0, Some("60")),
+        (240.0, 3, 0.0, Some("240")),
+        (29.97, 2, 0.0, Some("29.97")),
+        // Multiples of the step, many steps, and times that are not even.
+        (100.0, 2, 0.0, None),
+        (60.0, 4, 0.0, None),
+        (60.0, 2, 4e-3, None),
+    ] {
+        let recording = read(&text(rate, digits, jitter), Clock::Detect).unwrap();
+        assert_eq!(
+            reported(&recording, "times are rounded to "),
+            reported_rate.is_some(),
+            "{rate} {:?}",
+            recording.findings
+        );
+        let rate = reported_rate.unwrap_or_default();
+        assert!(reported(&recording, rate));
+    }
+}
+
+/// A column that is called like a unit of time is the time.
+#[test]
+fn units_are_names_of_times() {
+    for (name, size) in [
+        ("ms", 1e-3),
+        ("µs", 1e-6),
+        ("msec", 1e-3),
+        ("ns", 1e-9),
+        ("sec", 1.0),
+    ] {
+        let rows = (0..60).map(|row| {
+            let time = 0.01 * f64::from(row);
+            format!("{:.3},{:.6}\n", time / size, swing(time))
+        });
+        let text = format!("{name},a (rad)\n{}", rows.collect::<String>());
+        let recording = read(&text, Clock::Detect).unwrap();
+        assert_times(&recording, |row| 0.01 * row as f64, 1e-9);
+    }
+    // Where a column is called time, another one is not.
+    let text = "ms,time,a (rad)\n7,0.0,0.1\n9,0.1,0.2\n8,0.2,0.3\n";
+    assert_times(
+        &read(text, Clock::Detect).unwrap(),
+        |row| 0.1 * row as f64,
+        1e-12,
     );
 }
 

@@ -156,7 +156,7 @@ fn malformed_files_name_their_place() {
         ),
         (
             "t,a\n0.0,1\n0.2,1\n0.1,1\n",
-            "a.csv, line 4, column 1 (`t`): time 0.1 s does not come after 0.2 s",
+            "a.csv, line 4, column 1 (`t`): time 0.1 s does not come after 0.2 s; correct this time, or remove the row",
         ),
         (
             "t,a\n0.0,1\n0.2,1\n0.2,1\n",

@@ -41,6 +41,39 @@ fn links_without_motion_are_refused() {
         let error = relative.read(&table(&text(still))).unwrap_err();
         assert!(matches!(&*error.kind, ReadErrorKind::Still { name, .. } if name == "b"));
     }
+    // Angles that change by the rounding of `f64`.
+    for [low, high] in [
+        ["-0.3", "-0.30000000000000004"],
+        ["1.5707963267948966", "1.5707963267948968"],
+        ["0.1", "0.10000000000000002"],
+    ] {
+        let rounding = |row: usize| [low, high][row * row % 7 % 2].to_owned();
+        let error = by_columns(&text(&rounding), &["b"]).unwrap_err();
+        assert!(error.contains("never change: all 60 are"), "{error}");
+        // In few digits.
+        assert!(
+            error.contains(" rad, so") && !error.contains("0000"),
+            "{error}"
+        );
+    }
+    // Angles that flicker between neighbouring values of a format or an encoder are doubtful; a
+    // small motion is not.
+    let steps: [fn(usize) -> usize; 2] = [|row| row * row % 7 % 2, |row| row * 7 % 11 % 3];
+    for (value, step, digits) in [(0.1, 1e-6, 6), (-1.5708, 0.00614, 6), (2.0, 0.1, 1)] {
+        for count in steps {
+            let flickering = |row: usize| format!("{:.digits$}", value + step * count(row) as f64);
+            let recording = by_columns(&text(&flickering), &["b"]).unwrap();
+            let expected = "the angles of `b` change by ";
+            assert!(reported(&recording, expected), "{:?}", recording.findings);
+        }
+        let moving = |row: usize| format!("{}", value + 1e-3 * swing(row));
+        let recording = by_columns(&text(&moving), &["b"]).unwrap();
+        assert!(
+            !reported(&recording, "show no motion"),
+            "{:?}",
+            recording.findings
+        );
+    }
     // Two dots that do not move against each other.
     let rows = (0..60).map(|row| {
         let [x, y] = [0.3 + 0.01 * row as f64, swing(row)];

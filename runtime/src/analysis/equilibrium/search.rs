@@ -164,12 +164,13 @@ fn unwind(potential: &impl PotentialEnergy, own: &mut Equilibrium) {
             own.theta[link] = angle - TAU * (angle / TAU).round();
             let energy = potential.energy(&own.theta);
             let (torques, _) = potential.torques_and_stiffness(&own.theta);
-            let (before, _) = potential.torques_and_stiffness(&{
+            let (before, stiffness) = potential.torques_and_stiffness(&{
                 let mut theta = own.theta.clone();
                 theta[link] = angle;
                 theta
             });
-            let scale = own.energy.abs().max(f64::MIN_POSITIVE);
+            // The energy may be zero there, but not the stiffness, which has the same unit.
+            let scale = own.energy.abs() + stiffness.row_sums().into_iter().sum::<f64>();
             let is_same = (energy - own.energy).abs() <= 1e-9 * scale
                 && distance(&torques, &before) <= 1e-9 * scale;
             if !is_same {
