@@ -183,3 +183,47 @@ fn rest_of_many_links() {
         assert!(rest.theta.iter().any(|angle| angle.abs() > 1e-2));
     }
 }
+
+/// Whole turns of a link are the same place, unless a torsion spring distinguishes them; the energy
+/// there may be zero.
+#[test]
+fn a_rest_is_listed_once() {
+    let y = |arms: &str, springs: &str| {
+        format!("gravity = 9.80665, stem: rod(mass = 0.25, length = 0.28) [{arms}], {springs}")
+    };
+    let unequal = "arm: rod(mass = each(0.09, 0.11), length = each(0.22, 0.25)) * 2";
+    for (text, is_wound) in [
+        (y(unequal, "siblings(arm, at = 0.2, spring = 2)"), false),
+        (
+            y(
+                "arm: rod(mass = 0.1, length = 0.2) * 3",
+                "siblings(arm, at = 0.15, spring = 40)",
+            ),
+            false,
+        ),
+        (
+            y(
+                "left: rod(mass = 0.1, length = 0.2), right: rod(mass = 0.2, length = 0.3)",
+                "guy(left, at = 0.2, to = (0, -0.48), spring = 3)",
+            ),
+            false,
+        ),
+        // A torsion spring is wound up by whole turns.
+        (y(unequal, "siblings(arm, spring = 1e-3)"), true),
+    ] {
+        let tree = PendulumTree::parse(&text).unwrap_or_else(|error| panic!("{text}\n{error}"));
+        let found = tree.equilibria().unwrap();
+        let found: Vec<_> = found
+            .iter()
+            .filter(|own| own.stability == Stability::Stable)
+            .map(|own| &own.theta)
+            .collect();
+        assert_eq!(found.len() > 1, is_wound, "{text} {found:?}");
+        let turned = found
+            .iter()
+            .copied()
+            .flatten()
+            .any(|angle| angle.abs() > 3.2);
+        assert_eq!(turned, is_wound, "{text} {found:?}");
+    }
+}
