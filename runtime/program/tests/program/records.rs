@@ -140,3 +140,22 @@ fn a_leap_is_reported() {
         "{finding}"
     );
 }
+
+/// Angles that are read in a wrong way are named; their rows do not leap.
+#[test]
+fn no_leap_is_reported_of_misread_angles() {
+    for (name, side, tilt) in [
+        ("left", -90.0, -90),
+        ("right", 90.0, 90),
+        ("below", 270.0, -90),
+    ] {
+        let rows = (0..120).map(|row| {
+            let time = 0.02 * f64::from(row);
+            format!("{time:.2},{:.4}", angle(time) + side)
+        });
+        let file = file(name, "time (s),theta (deg)", rows);
+        let (_, printed) = command("analyse", &file, &ANALYSE);
+        assert!(printed.contains(&format!("--tilt {tilt}")), "{printed}");
+        assert!(!printed.contains("the record leaps where"), "{printed}");
+    }
+}

@@ -64,19 +64,13 @@ pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
     }
     let subject = MeasuredTree::new(&described, arguments.sector.as_deref())?;
     let hung = MeasuredLinks::new(&described, &known.offsets, &arguments.measured)?;
-    let mut source = match &table {
+    let source = match &table {
         Some(table) => Source::read(table, arguments, &hung)?,
         None => Source::simulate(
             arguments,
             &constants::real(&known, &arguments.real.concat())?,
         )?,
     };
-    if table.is_some() {
-        let leaps = Leaps::of(&subject, &source)?;
-        source.findings.splice(0..0, leaps.finding());
-        let times = leaps.times.iter().map(|ends| ends.to_vec());
-        job.report("leaps", times.collect::<Vec<_>>());
-    }
     let offsets = described.tree.names().iter().cloned();
     let offsets = offsets.zip(source.offsets.iter().copied());
     described.record_with(job, offsets.collect())?;
@@ -85,7 +79,7 @@ pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
         job,
         &subject,
         table.as_ref().map(|table| (table, &hung)),
-        &source,
+        source,
     )
 }
 
@@ -94,10 +88,19 @@ fn analyse(
     job: &Job,
     subject: &MeasuredTree,
     table: Option<(&Table, &MeasuredLinks)>,
-    source: &Source,
+    mut source: Source,
 ) -> Result<(), Failure> {
     let progress = job.progress(1 + usize::from(arguments.model));
-    let (estimate, verdict, search) = judged(arguments, subject, table, source, &progress)?;
+    let (estimate, verdict, search) = judged(arguments, subject, table, &source, &progress)?;
+    // Angles that are read in a wrong way leave the equations of motion at sound rows.
+    let is_misread = search.as_ref().is_some_and(CauseSearch::is_misread);
+    if table.is_some() && !is_misread {
+        let leaps = Leaps::of(subject, &source)?;
+        source.findings.splice(0..0, leaps.finding());
+        let times = leaps.times.iter().map(|ends| ends.to_vec());
+        job.report("leaps", times.collect::<Vec<_>>());
+    }
+    let source = &source;
     let names = subject.names();
     report::write(job, names, source, &estimate)?;
     job.print(&verdict.words(arguments, names, search.as_ref()))?;

@@ -96,6 +96,8 @@ pub struct Cause {
     pub option: String,
     /// Fraction of the gap that the changes remove, from 0 to 1.
     pub share: f64,
+    /// True if all rows of the record stay in use.
+    pub keeps_rows: bool,
 }
 
 impl Cause {
@@ -115,6 +117,7 @@ impl Cause {
             words: words.join(", and "),
             option: options.join(" "),
             share,
+            keeps_rows: !changes.iter().any(|own| own.kind.leaves_out()),
         }
     }
 }

@@ -45,6 +45,17 @@ pub struct CauseSearch {
     pub leaps: Vec<[f64; 2]>,
 }
 
+impl CauseSearch {
+    /// Returns true if the budget closes, or nearly closes, by another interpretation of the same
+    /// rows.
+    pub fn is_misread(&self) -> bool {
+        const NEARLY: f64 = 0.9;
+        let nearly = self.partial.iter().find(|cause| cause.share > NEARLY);
+        let cause = self.closing.first().or(nearly);
+        cause.is_some_and(|cause| cause.keeps_rows)
+    }
+}
+
 /// A record whose energy budget does not close.
 pub struct Unclosed<'a> {
     /// Command-line options with which the record was read and its motion estimated.
