@@ -106,6 +106,9 @@ impl SpringLine {
     }
 }
 
+/// Arms of a line, with the links that rotate them.
+type Arms = Vec<(LinkId, Offset)>;
+
 /// A link on the path from a point to the root.
 struct Step<'s> {
     link: usize,
@@ -128,22 +131,29 @@ impl Scene {
         let mut runs = Vec::new();
         for (spring_damper, own) in self.translational.iter().enumerate() {
             match &own.ends {
-                LineEnds::Links(ends, [first, second]) => {
-                    let pairs = self.pair_runs(ends).into_iter();
-                    runs.extend(pairs.map(
-                        |PairRun {
-                             first: [a, b],
-                             count,
-                         }| SpringLineRun {
-                            first: SpringLine {
-                                spring_damper,
-                                links: vec![LinkId(a), LinkId(b)],
-                                arms: self.arms((a, first), Some((b, second))),
-                                offset: [Quantity::zero(), Quantity::zero()],
-                            },
-                            count,
-                        },
-                    ));
+                LineEnds::Links(ends, points) => {
+                    let mut before: Option<([usize; 2], Arms)> = None;
+                    for PairRun {
+                        first: links,
+                        count,
+                    } in self.pair_runs(ends)
+                    {
+                        let repeated = before
+                            .as_ref()
+                            .and_then(|(others, arms)| self.same_arms(arms, *others, links));
+                        let arms = repeated.unwrap_or_else(|| {
+                            let [first, second] = [0, 1].map(|end| (links[end], &points[end]));
+                            self.arms(first, Some(second))
+                        });
+                        let first = SpringLine {
+                            spring_damper,
+                            links: links.map(LinkId).to_vec(),
+                            arms: arms.clone(),
+                            offset: [Quantity::zero(), Quantity::zero()],
+                        };
+                        before = Some((links, arms));
+                        runs.push(SpringLineRun { first, count });
+                    }
                 }
                 LineEnds::Guy(LinkId(link), at, [x, y]) => runs.push(SpringLineRun {
                     first: SpringLine {
@@ -163,6 +173,30 @@ impl Scene {
             }
         }
         runs
+    }
+
+    /// Returns the arms of a line between two `links` if they are those of a line between the same
+    /// points of the two links `others`: if all four hang from the same place. `None` if they may
+    /// differ.
+    fn same_arms(&self, arms: &Arms, others: [usize; 2], links: [usize; 2]) -> Option<Arms> {
+        let place = |link| {
+            let (link, parent) = self.link_and_parent(link)?;
+            Some((parent?, &link.pivot))
+        };
+        // Arms are in the order of their links.
+        if (others[0] < others[1]) != (links[0] < links[1]) {
+            return None;
+        }
+        let hung = place(others[0])?;
+        let mut all = [others[1], links[0], links[1]].into_iter();
+        if !all.all(|link| place(link) == Some(hung)) {
+            return None;
+        }
+        let moved = arms.iter().map(|(LinkId(link), arm)| {
+            let end = others.iter().position(|other| other == link)?;
+            Some((LinkId(links[end]), arm.clone()))
+        });
+        moved.collect()
     }
 
     /// Returns a link of the whole tree and the index of its parent. Copy c under link i of a
@@ -202,11 +236,7 @@ impl Scene {
     /// Returns the arms of the line from the first point to the second one, or to the ground: those
     /// on the second point's path to the root minus those on the first point's path. The common
     /// part of the paths cancels.
-    fn arms(
-        &self,
-        first: (usize, &Offset),
-        second: Option<(usize, &Offset)>,
-    ) -> Vec<(LinkId, Offset)> {
+    fn arms(&self, first: (usize, &Offset), second: Option<(usize, &Offset)>) -> Arms {
         let mut ways = [
             self.path_to_root(first),
             second.map_or_else(Vec::new, |second| self.path_to_root(second)),

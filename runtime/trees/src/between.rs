@@ -9,7 +9,7 @@ use branched_pendulum::translational::{
 };
 use branched_pendulum_codegen::scene::{DescribedLinePotential, LinkId, Quantity, Scene};
 
-use crate::numbers::{self, value};
+use crate::numbers::{self, RepeatedValues};
 
 /// Springs and dampers between links and to the ground: torsion spring-dampers, and straight ones.
 #[derive(Clone, Debug)]
@@ -92,7 +92,8 @@ impl<T: Scalar> Between<T> {
 
 /// Returns the straight springs and dampers of a scene.
 fn straight<S: Scalar>(scene: &Scene, parameters: &[S]) -> Vec<TranslationalSpringDamper<S>> {
-    let at = |quantity: &Quantity| value(quantity, parameters);
+    let values = RepeatedValues::new(parameters);
+    let at = |quantity: &Quantity| values.value(quantity);
     let given = |quantity: &Quantity| (!quantity.is_zero()).then(|| at(quantity));
     let potential = |own: &DescribedLinePotential| match own {
         DescribedLinePotential::Spring { stiffness, rest } => LinePotential::Spring {

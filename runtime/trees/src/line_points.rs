@@ -2,7 +2,7 @@
 
 use branched_pendulum_codegen::scene::{LineEnds, LinkId, Offset, Quantity};
 
-use crate::numbers::value;
+use crate::numbers::RepeatedValues;
 use crate::tree::PendulumTree;
 
 /// One of the two points between which a straight spring acts.
@@ -23,8 +23,9 @@ impl PendulumTree<f64> {
     /// Returns the end points of the straight springs, one pair for each of
     /// [`translational_spring_dampers`](Self::translational_spring_dampers).
     pub fn line_points(&self) -> Vec<[LinePoint; 2]> {
-        let (scene, values) = (&self.description().scene, self.described.values());
-        let at = |quantity: &Quantity| value(quantity, values);
+        let scene = &self.description().scene;
+        let values = RepeatedValues::new(self.described.values());
+        let at = |quantity: &Quantity| values.value(quantity);
         let on = |own: &Offset| [at(&own.along), at(&own.lateral)];
         let lines = scene.lines().into_iter().filter_map(|line| {
             let own = scene.translational.get(line.spring_damper)?;

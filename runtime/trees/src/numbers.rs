@@ -1,6 +1,8 @@
 //! Constants of links as numbers: the quantities of a description for given parameters, in about
 //! 106 bits, so that results computed from them are rounded only once.
 
+use std::cell::RefCell;
+
 use branched_pendulum::ParameterError;
 use branched_pendulum::emitted::{
     LinkBody, free_link, require_downward, require_finite, require_magnitude, require_non_negative,
@@ -59,6 +61,38 @@ pub(crate) fn value<S: Scalar>(quantity: &Quantity, parameters: &[S]) -> S {
             None => S::from_f64(f64::NAN),
         },
     })
+}
+
+/// Evaluates quantities of which many are equal, as those of springs between copies are: the last
+/// different ones are computed only once.
+pub(crate) struct RepeatedValues<'p, S> {
+    parameters: &'p [S],
+    known: RefCell<Vec<(Quantity, S)>>,
+}
+
+impl<'p, S: Scalar> RepeatedValues<'p, S> {
+    /// Number of quantities whose values are kept.
+    const KEPT: usize = 8;
+
+    /// Creates an evaluator for these values of the parameters.
+    pub(crate) fn new(parameters: &'p [S]) -> Self {
+        let known = RefCell::default();
+        Self { parameters, known }
+    }
+
+    /// Returns the value of a quantity.
+    pub(crate) fn value(&self, quantity: &Quantity) -> S {
+        let mut known = self.known.borrow_mut();
+        if let Some((_, value)) = known.iter().find(|(own, _)| own == quantity) {
+            return *value;
+        }
+        let value = value(quantity, self.parameters);
+        if known.len() == Self::KEPT {
+            known.remove(0);
+        }
+        known.push((quantity.clone(), value));
+        value
+    }
 }
 
 /// Returns the value of an expression, given the values of its atoms (parameters).
