@@ -299,7 +299,7 @@ fn still(links: &[LinkSeries]) -> Option<ReadErrorKind> {
     /// Smallest number of angles from which on a link must move.
     const FEWEST: usize = 5;
     /// Range of angles, relative to the largest one, that is caused by rounding.
-    const ROUNDING: f64 = 1e-14;
+    const ROUNDING: f64 = 1e-12;
     links.iter().find_map(|link| {
         let (count, [least, most]) = range(link);
         let is_still = most - least <= ROUNDING * most.abs().max(least.abs());
