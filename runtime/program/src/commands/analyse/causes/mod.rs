@@ -313,8 +313,10 @@ impl Unclosed<'_> {
     }
 
     /// Returns true if a gap as large as that of the record would exceed the standard deviations of
-    /// another interpretation, at most of the times at which it exceeds its own.
+    /// another interpretation: at most of the times at which it exceeds its own, or by far where
+    /// it is large.
     fn would_exceed(&self, node: &Node) -> bool {
+        const FAR: f64 = 2.0;
         let (own, other) = (&self.verdict, &node.verdict);
         if node.changes.iter().any(|change| change.kind.leaves_out()) {
             return 2.0 * other.trust.closure < own.trust.closure;
@@ -324,7 +326,10 @@ impl Unclosed<'_> {
         let by_other = reported
             .clone()
             .filter(|([gap, _], [_, deviation])| gap.abs() > other.allowed * deviation);
-        2 * by_other.count() > reported.count()
+        let by_far = reported
+            .clone()
+            .any(|([gap, _], [_, deviation])| gap.abs() > FAR * other.allowed * deviation);
+        by_far || 2 * by_other.count() > reported.count()
     }
 }
 

@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 
 use branched_pendulum_data::{Table, TableOptions};
 
-use self::scene::film;
+use self::scene::{Fault, film};
 use super::super::{Arguments, Source, judged};
 use super::{hung, tree};
 use crate::frame::Progress;
@@ -93,6 +93,26 @@ fn counted(films: impl Iterator<Item = u64>) -> [usize; 3] {
         counts[2] += usize::from(closes);
     }
     counts
+}
+
+/// A wrong direction of y is named although its gap is small at most times, next to the error bars
+/// of the right direction.
+#[test]
+fn the_direction_of_y_is_named_after_a_late_release() {
+    let films = (0..400).map(film);
+    let films = films.filter(|film| film.faults == [Fault::Y, Fault::Late]);
+    let mut advised = 0;
+    for film in films.take(3) {
+        if let Some(advice) = judge(&film.text, &film.options).unwrap() {
+            assert_eq!(advice, "--y-down", "{}", film.words);
+            assert_eq!(
+                judge(&film.text, &followed(&film.options, &advice)),
+                Ok(None)
+            );
+            advised += 1;
+        }
+    }
+    assert!(advised >= 2, "{advised}");
 }
 
 /// Keeps what is reached. The targets, 95 % of first causes true and 90 % of budgets closed, are not:
