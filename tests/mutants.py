@@ -38,7 +38,7 @@ C, R, D, M = "codegen/src", "runtime/src", "runtime/data/src", "runtime/measure/
 # Name, file, text, mutant, test binary, test.
 EXPRESSIONS = [
     ("sign of the Coriolis term", f"{C}/mechanics/frame.rs",
-     "-derivation.partial(&term, coordinate)", "derivation.partial(&term, coordinate)",
+     "rows[self.index(coordinate)].push(-slope);", "rows[self.index(coordinate)].push(slope);",
      MECHANICS, BOTH_SOLVES),
     ("sign of gravity", f"{C}/mechanics/frame.rs",
      "row.push(potential);", "row.push(-potential);", MECHANICS, BOTH_SOLVES),
@@ -165,7 +165,7 @@ EXPRESSIONS = [
      "cells::numbers_are_read_as_they_are_written"),
     ("links point from the origin", f"{D}/points.rs",
      "([c - a, d - b], one.min(other))", "([c, d], one.min(other))", DATA, "points::"),
-    ("the first of repeated rows counts as the last", f"{D}/timing.rs",
+    ("the first of repeated rows counts as the last", f"{D}/succession.rs",
      "is_kept[first..row].fill(false)", "is_kept[row] = false", DATA,
      "headers::repeated_times_leave_the_row_that_counts"),
     ("turns are told without looking ahead", f"{D}/turns.rs",
@@ -177,7 +177,8 @@ EXPRESSIONS = [
      "gap.end <= to", "false", DATA,
      "findings::rows_at_the_edges_of_an_encoder"),
     ("outliers of rounding", f"{D}/outliers.rs",
-     "let floor = ROUNDING * resolution;", "let floor = 0.0;", DATA,
+     "(NORMAL * median(deviations.clone())).max(ROUNDING * resolution)",
+     "NORMAL * median(deviations.clone())", DATA,
      "findings::rounding_makes_no_outliers"),
     ("an exchange that goes on", f"{D}/exchange.rs",
      "let turned = difference.plus(-2.0, difference);", "let turned = difference;", DATA,
