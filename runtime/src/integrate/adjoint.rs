@@ -126,7 +126,7 @@ impl<M: EmbeddedPair, T: Real> ExplicitRungeKutta<M, T> {
                 reached = solution.state;
             }
             let mut slopes = vec![T::ZERO; reached.values.len()];
-            total = total + cost(index, &reached.values, &mut slopes);
+            total += cost(index, &reached.values, &mut slopes);
             samples.push((steps.len(), slopes));
         }
         let slopes = samples.iter().flat_map(|(_, slopes)| slopes);
@@ -139,7 +139,7 @@ impl<M: EmbeddedPair, T: Real> ExplicitRungeKutta<M, T> {
                 reverse.step::<M, O>(ode, &steps[number])?;
             }
             for (adjoint, slope) in reverse.adjoint.iter_mut().zip(slopes) {
-                *adjoint = *adjoint + slope;
+                *adjoint += slope;
             }
         }
         for step in steps[..number].iter().rev() {
@@ -286,7 +286,7 @@ impl<T: Real> Reverse<T> {
                 let factor = T::from_f64(weight) * step.length;
                 let rates = &self.rates[(other - 1) * n..other * n];
                 for (value, rate) in own.iter_mut().zip(rates) {
-                    *value = *value + factor * *rate;
+                    *value += factor * *rate;
                 }
             }
             let rates = &mut self.rates[stage * n..(stage + 1) * n];
@@ -320,7 +320,7 @@ impl<T: Real> Reverse<T> {
                 &self.stage_adjoint,
             );
             for (adjoint, more) in self.adjoint.iter_mut().zip(&self.stage_adjoint) {
-                *adjoint = *adjoint + *more;
+                *adjoint += *more;
             }
         }
         self.largest = self.largest.max(largest(&self.adjoint));
@@ -347,7 +347,7 @@ fn spread<T: Real>(rates: &mut [T], row: &[(usize, f64)], length: T, adjoint: &[
         let factor = T::from_f64(weight) * length;
         let rates = &mut rates[(stage - 1) * n..stage * n];
         for (rate, adjoint) in rates.iter_mut().zip(adjoint) {
-            *rate = *rate + factor * *adjoint;
+            *rate += factor * *adjoint;
         }
     }
 }
