@@ -211,7 +211,7 @@ impl<'a> Case<'a> {
                     .iter()
                     .map(|&value| Double::from_f64(value))
                     .collect();
-                point[index] = point[index] + Double::from_f64(steps * STEP);
+                point[index] += Double::from_f64(steps * STEP);
                 let weights = self.weights.iter().map(|&weight| Double::from_f64(weight));
                 let terms = self.values(&point).into_iter().zip(weights);
                 let terms = terms.map(|(value, weight)| value * weight);
