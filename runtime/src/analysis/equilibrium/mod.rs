@@ -1,11 +1,11 @@
 //! Equilibria of a tree; small motions about a stable one are described by linear modes.
 
+mod potential;
 mod search;
 mod stiffness;
 
-pub use search::{
-    Equilibrium, PotentialEnergy, Stability, equilibria, equilibrium_at, stable_equilibrium,
-};
+pub use potential::{Equilibrium, PotentialEnergy, Stability};
+pub use search::{equilibria, equilibrium_at, stable_equilibrium};
 pub use stiffness::Stiffness;
 
 use nalgebra::{DMatrix, DVector};

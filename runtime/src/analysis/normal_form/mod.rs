@@ -9,6 +9,7 @@ mod expansion;
 mod flow;
 mod lattice;
 mod lie;
+mod options;
 mod period;
 mod prediction;
 mod refusal;
@@ -26,6 +27,7 @@ use self::expansion::ExpandedHamiltonian;
 use self::flow::{SlowEquations, SlowFlow};
 use self::lattice::slow_phases;
 use self::lie::Lie;
+pub use self::options::NormalFormOptions;
 use self::period::{SlowMotion, SlowOrbit};
 use self::prediction::Level;
 pub use self::prediction::{Agreement, DegreeEstimate, Prediction};
@@ -35,35 +37,6 @@ pub use self::subspace::MotionSubspace;
 pub use self::tongue::{Tongue, Tongues};
 use crate::scalar::{Exponents, Polynomial, Terms};
 use crate::system::{Energy, Model};
-
-/// Settings of a [`NormalForm`].
-#[derive(Clone, Debug, PartialEq)]
-pub struct NormalFormOptions {
-    /// Degree up to which the Hamiltonian is expanded: an even number from 4 to 12.
-    pub degree: u32,
-    /// Largest relative mismatch of a resonance that is kept: a resonance of order 4 + 2k is kept
-    /// if |Σ n_j f_j| is at most `bound`/2^k times the lowest frequency of a difference.
-    pub bound: f64,
-    /// Resonances that are removed although they are within the bound.
-    pub removed: Vec<Resonance>,
-    /// Largest accepted difference between the results of the two highest degrees.
-    pub agreement: Agreement,
-    /// Longest period of an averaged motion that is waited for where modes in phase exchange
-    /// energy, s.
-    pub following: f64,
-}
-
-impl Default for NormalFormOptions {
-    fn default() -> Self {
-        Self {
-            degree: 8,
-            bound: 0.15,
-            removed: Vec::new(),
-            agreement: Agreement { frequency: 5e-3 },
-            following: 240.0,
-        }
-    }
-}
 
 /// Resonant normal form of an in-phase motion with small differences between copies.
 #[derive(Clone, Debug)]
