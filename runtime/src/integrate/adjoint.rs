@@ -8,7 +8,7 @@ use core::ops::ControlFlow;
 use super::explicit::{EmbeddedPair, ExplicitRungeKutta};
 use super::integrator::Integrator;
 use super::request::{check_start, check_times};
-use super::{Crossing, Event, IntegrationError, Report, StopReason};
+use super::{Crossing, Event, InputError, IntegrationError, Report, StopReason};
 use crate::scalar::Real;
 use crate::system::{PullbackOde, PullbackWorkspace, State, Workspace};
 
@@ -21,9 +21,10 @@ pub struct MotionGradient<T> {
     pub start: Vec<T>,
     /// Derivatives of the cost by the parameters of the equations.
     pub parameters: Vec<T>,
-    /// Largest size of the adjoint on the way back, relative to the largest derivative of a cost by
-    /// its state: how much the motion amplifies small changes. If its product with the relative
-    /// tolerance is not far below 1, the derivatives say nothing about the motion.
+    /// Amplification of small changes by the motion: the largest derivative of the cost by a state
+    /// on the way, relative to the largest derivative of a sample's cost by the state there. If the
+    /// product of this number and the relative tolerance is not far below 1, the derivatives say
+    /// nothing about the motion.
     pub growth: T,
     /// Number of steps of the motion.
     pub steps: usize,
@@ -40,16 +41,18 @@ impl<M: EmbeddedPair, T: Real> ExplicitRungeKutta<M, T> {
     /// The derivatives are those of the numerical solution with its steps kept fixed (the discrete
     /// adjoint), exact but for rounding: each step is repeated from its stored start and
     /// differentiated backwards through its stages. Time: one run, one repetition, and one pullback
-    /// for each stage; the number of parameters does not count. Memory: one state for each
-    /// step. In a chaotic motion the derivatives grow as fast as two nearby motions separate, and are of no
-    /// use once these are apart: [`MotionGradient::growth`] says how far they grew.
+    /// for each stage; the number of parameters does not count. Memory: one state for each step.
+    ///
+    /// In a chaotic motion the derivatives grow as fast as two nearby motions separate, and are of
+    /// no use once these are apart. [`MotionGradient::growth`] says how far they grew.
     ///
     /// Source: Sanz-Serna, SIAM Review 58 (2016) 3–33.
     ///
     /// # Errors
     ///
-    /// [`IntegrationError`] as [`Integrator::integrate`]; [`IntegrationError::NonFinite`] if a
-    /// derivative is not finite, or if the number of parameters is not that of the equations.
+    /// [`IntegrationError`] as [`Integrator::integrate`]; [`InputError::Parameters`] if the equations
+    /// have another number of parameters; [`IntegrationError::NonFinite`] if a derivative is not
+    /// finite.
     ///
     /// # Examples
     ///
@@ -108,42 +111,26 @@ impl<M: EmbeddedPair, T: Real> ExplicitRungeKutta<M, T> {
     ) -> Result<MotionGradient<T>, IntegrationError<T>> {
         check_start(ode, (start.time, &start.values))?;
         check_times(start.time, times)?;
-        let mut steps: Vec<StepTaken<T>> = Vec::new();
-        // Cost of each sample: derivatives, and number of steps before it.
-        let mut samples: Vec<(usize, Vec<T>)> = Vec::new();
-        let mut total = T::ZERO;
-        let mut reached = start.clone();
-        for (index, &time) in times.iter().enumerate() {
-            if time != reached.time {
-                let solution = self.integrate(ode, &reached, time, |step| {
-                    steps.push(StepTaken {
-                        time: step.start_time(),
-                        length: step.end_time() - step.start_time(),
-                        start: step.start().to_vec(),
-                    });
-                    ControlFlow::Continue(())
-                })?;
-                reached = solution.state;
-            }
-            let mut slopes = vec![T::ZERO; reached.values.len()];
-            total += cost(index, &reached.values, &mut slopes);
-            samples.push((steps.len(), slopes));
-        }
-        let slopes = samples.iter().flat_map(|(_, slopes)| slopes);
-        let given = largest(slopes);
         let mut reverse = Reverse::new::<M>(start.values.len(), parameters);
-        let mut number = steps.len();
-        while let Some((before, slopes)) = samples.pop() {
-            while number > before {
-                number -= 1;
-                reverse.step::<M, O>(ode, &steps[number])?;
+        reverse.check_parameters(ode, start)?;
+        let Forward {
+            cost: total,
+            steps,
+            samples,
+        } = self.forward(ode, start, times, &mut cost)?;
+        let given = largest(samples.iter().flat_map(|(_, slopes)| slopes));
+        let mut left = steps.as_slice();
+        for (before, slopes) in samples.iter().rev() {
+            while left.len() > *before {
+                let Some((last, others)) = left.split_last() else {
+                    break;
+                };
+                left = others;
+                reverse.step::<M, O>(ode, last)?;
             }
             for (adjoint, slope) in reverse.adjoint.iter_mut().zip(slopes) {
-                *adjoint += slope;
+                *adjoint += *slope;
             }
-        }
-        for step in steps[..number].iter().rev() {
-            reverse.step::<M, O>(ode, step)?;
         }
         let gradient = MotionGradient {
             cost: total,
@@ -160,6 +147,41 @@ impl<M: EmbeddedPair, T: Real> ExplicitRungeKutta<M, T> {
             true => Ok(gradient),
             false => Err(non_finite(start)),
         }
+    }
+
+    /// Makes the run whose cost is differentiated, and keeps its steps.
+    fn forward<O: PullbackOde<T> + ?Sized>(
+        &self,
+        ode: &O,
+        start: &State<T>,
+        times: &[T],
+        cost: &mut impl FnMut(usize, &[T], &mut [T]) -> T,
+    ) -> Result<Forward<T>, IntegrationError<T>> {
+        let zeros = vec![T::ZERO; start.values.len()];
+        let mut forward = Forward {
+            cost: T::ZERO,
+            steps: Vec::new(),
+            // The start costs nothing.
+            samples: vec![(0, zeros.clone())],
+        };
+        let mut reached = start.clone();
+        for (index, &time) in times.iter().enumerate() {
+            if time != reached.time {
+                let solution = self.integrate(ode, &reached, time, |step| {
+                    forward.steps.push(StepTaken {
+                        time: step.start_time(),
+                        length: step.end_time() - step.start_time(),
+                        start: step.start().to_vec(),
+                    });
+                    ControlFlow::Continue(())
+                })?;
+                reached = solution.state;
+            }
+            let mut slopes = zeros.clone();
+            forward.cost += cost(index, &reached.values, &mut slopes);
+            forward.samples.push((forward.steps.len(), slopes));
+        }
+        Ok(forward)
     }
 
     /// Returns the first time at which a function of the state crosses zero, and the derivatives of
@@ -212,6 +234,15 @@ impl<M: EmbeddedPair, T: Real> ExplicitRungeKutta<M, T> {
         let gradient = self.gradient(ode, parameters, start, &[time], cost)?;
         Ok(Some(gradient))
     }
+}
+
+/// A run whose cost is differentiated.
+struct Forward<T> {
+    /// Sum of the costs of all samples.
+    cost: T,
+    steps: Vec<StepTaken<T>>,
+    /// Number of steps before each sample, and the derivatives of its cost by the state.
+    samples: Vec<(usize, Vec<T>)>,
 }
 
 /// A step of the motion.
@@ -268,6 +299,32 @@ impl<T: Real> Reverse<T> {
             stage_adjoint: zeros(1),
             workspace: Workspace::new(),
             pullback: PullbackWorkspace::new(),
+        }
+    }
+
+    /// Checks the number of parameters: for a wrong one all derivatives are NaN.
+    fn check_parameters(
+        &mut self,
+        ode: &(impl PullbackOde<T> + ?Sized),
+        start: &State<T>,
+    ) -> Result<(), InputError<T>> {
+        let zeros = vec![T::ZERO; start.values.len()];
+        let (mut by_state, mut by_parameters) = (zeros.clone(), self.parameters.clone());
+        ode.add_pullback(
+            &mut self.pullback,
+            start.time,
+            &start.values,
+            &zeros,
+            &mut by_state,
+            &mut by_parameters,
+        );
+        // Where the equations have no derivatives, some of them are NaN.
+        let mut all = by_state.iter().chain(&by_parameters);
+        match all.all(|slope| slope.to_f64().is_nan()) {
+            true => Err(InputError::Parameters {
+                found: self.parameters.len(),
+            }),
+            false => Ok(()),
         }
     }
 

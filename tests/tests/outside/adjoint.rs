@@ -4,7 +4,7 @@
 use branched_pendulum::Parametric;
 use branched_pendulum::analysis::variational::{flow_jacobian, linearised};
 use branched_pendulum::batch::Batch;
-use branched_pendulum::integrate::{Crossing, MotionGradient};
+use branched_pendulum::integrate::{Crossing, InputError, MotionGradient};
 use branched_pendulum::prelude::*;
 use branched_pendulum::system::{At, functions};
 use branched_pendulum_compiler_tests::random::Random;
@@ -20,7 +20,7 @@ use branched_pendulum_compiler_tests::random::Random;
 )]
 struct Branched;
 
-/// The same without friction, drive and parameters.
+/// The apparatus of the paper in numbers, without friction and drive.
 #[branched_pendulum(
     gravity = 9.80665,
     parent(mass = 0.12880, com = 0.084, inertia = 1.88e-3, joint = 0.27) [
@@ -266,7 +266,10 @@ fn a_wrong_number_of_parameters_is_refused() {
     for parameters in [0, 4, 6] {
         let result = method().gradient(&ode, parameters, &start(), &[1.0], cost);
         assert!(
-            matches!(result, Err(IntegrationError::NonFinite { .. })),
+            matches!(
+                result,
+                Err(IntegrationError::Input(InputError::Parameters { found })) if found == parameters
+            ),
             "{parameters}"
         );
     }

@@ -111,6 +111,12 @@ pub enum InputError<T> {
     /// A system of an ensemble in lanes differs from the first one in more than its constants; see
     /// [`LaneOde::shape`](crate::system::LaneOde::shape).
     Shape,
+    /// The equations have another number of parameters than the one given, by which derivatives are
+    /// requested.
+    Parameters {
+        /// Number given.
+        found: usize,
+    },
     /// The starting time is infinite or NaN.
     StartTime {
         /// The time given.
@@ -226,6 +232,12 @@ impl<T: Real> fmt::Display for InputError<T> {
                  in lanes all must have the same"
             ),
             Self::Shape => f.write_str(OTHER_SHAPE),
+            Self::Parameters { found } => write!(
+                f,
+                "derivatives by {found} parameters are requested, but the equations do not have {found}: \
+                 give the number of the description's parameters, `Parametric::PARAMETERS.len()`, or 0 \
+                 for a model without any"
+            ),
             Self::StartTime { value } => out_of_range(f, "the starting time", value, FINITE),
             Self::StartValue { component, value } => {
                 let what = format_args!("component {component} of the starting state");
