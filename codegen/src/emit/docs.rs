@@ -306,7 +306,7 @@ fn argument_meaning(argument: Argument) -> Option<&'static str> {
         Argument::AbsoluteMomenta | Argument::Momenta => Some("`momenta` (in kg m²/s)"),
         Argument::Torques => Some("`torques` (in N m)"),
         Argument::SmallTorques => Some("`difference_torques` (in N m)"),
-        Argument::Adjoint => Some("weights `adjoint`"),
+        Argument::Weights => Some("`weights`"),
         Argument::Prescribed(_) => Some("accelerations `prescribed` (in rad/s²)"),
         Argument::Forces
         | Argument::Absolute

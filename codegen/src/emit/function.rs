@@ -78,7 +78,7 @@ impl Emission<'_> {
             | Argument::Momenta
             | Argument::Forces
             | Argument::Alpha
-            | Argument::Adjoint
+            | Argument::Weights
             | Argument::Torques
             | Argument::Absolute
             | Argument::Symmetric => self.scene.links.len(),
@@ -302,7 +302,7 @@ impl Emission<'_> {
             | Argument::Rates
             | Argument::Momenta
             | Argument::Alpha
-            | Argument::Adjoint
+            | Argument::Weights
             | Argument::Actions
             | Argument::Difference(_)
             | Argument::DifferenceRate(_)

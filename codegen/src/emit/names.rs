@@ -139,7 +139,7 @@ impl Emission<'_> {
             Argument::SmallRates => return self.small_name("delta_rate", index),
             Argument::SmallTorques => return self.small_name("outside_delta", index),
             Argument::Torques => return format!("outside_{}", self.scene.links[index].name),
-            Argument::Adjoint => return format!("adjoint_{}", self.scene.links[index].name),
+            Argument::Weights => return format!("weight_{}", self.scene.links[index].name),
             Argument::Prescribed(set) => {
                 return format!("prescribed_{}", self.scene.prescribed[set].members[index]);
             }

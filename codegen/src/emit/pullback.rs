@@ -10,13 +10,13 @@ impl Emission<'_> {
         let signature = Naming::of(self.scene, self.mechanics).signature(of);
         vec![
             format!(
-                "Derivatives of the sum Σ w θ̈ of the accelerations of [`{name}`](Self::{name}), each multiplied by a weight w of `adjoint`: {}.",
+                "Derivatives of the sum Σ w θ̈ of the accelerations of [`{name}`](Self::{name}), each multiplied by a number w of `weights`: {}.",
                 self.places_of_derivatives(&signature.arguments),
                 name = signature.name,
             ),
             String::new(),
             format!(
-                "These are the products of w with the columns of the Jacobian matrix, Σ_i w_i ∂θ̈_i/∂x, {BACKWARDS}"
+                "There is one array for each of these. A derivative by x is the product of w with a column of the Jacobian matrix, Σ_i w_i ∂θ̈_i/∂x, in the unit of w θ̈ divided by that of x. {BACKWARDS}"
             ),
         ]
     }
@@ -40,7 +40,9 @@ impl Emission<'_> {
                 name = signature.name,
             ),
             String::new(),
-            format!("They are {BACKWARDS}"),
+            format!(
+                "There is one array for each of these. A derivative by x has the unit of the function divided by that of x. {BACKWARDS}"
+            ),
         ]
     }
 
@@ -65,5 +67,5 @@ impl Emission<'_> {
     }
 }
 
-/// How derivatives are computed, after a verb.
-const BACKWARDS: &str = "computed in one pass from the results back to the arguments (reverse mode: Griewank and Walther, Evaluating Derivatives, 2008, chapter 3). The cost includes that of the function itself.";
+/// Method and cost of derivatives.
+const BACKWARDS: &str = "All are computed in one pass from the results back to the arguments (reverse mode: Griewank and Walther, Evaluating Derivatives, 2008, chapter 3). The cost includes that of the function itself.";

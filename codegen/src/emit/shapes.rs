@@ -18,7 +18,7 @@ pub(super) fn argument_type(argument: Argument, length: &TokenStream) -> TokenSt
         | Argument::Rates
         | Argument::Momenta
         | Argument::Alpha
-        | Argument::Adjoint
+        | Argument::Weights
         | Argument::Actions
         | Argument::Difference(_)
         | Argument::DifferenceRate(_)

@@ -83,8 +83,8 @@ impl Emission<'_> {
         quote!({ #(#runtime::emitted::unknown(#outputs);)* })
     }
 
-    /// Emits code that calls a function with slices and writes its result, an array or a pair of
-    /// arrays, to `outputs`.
+    /// Emits code that calls a function with slices and writes its result, one array or
+    /// several, to `outputs`.
     pub(super) fn fill(&self, outputs: &[&str], purpose: Purpose) -> TokenStream {
         if outputs.len() > 1 {
             return self.fill_each(outputs, purpose);
@@ -97,14 +97,15 @@ impl Emission<'_> {
 
     /// Emits code that writes the arrays returned by a function to as many slices. The function
     /// returns rows of equal length, or a tuple.
-    pub(super) fn fill_each(&self, outputs: &[&str], purpose: Purpose) -> TokenStream {
+    fn fill_each(&self, outputs: &[&str], purpose: Purpose) -> TokenStream {
         let runtime = self.runtime();
         let names: Vec<Ident> = outputs.iter().map(|output| ident(output)).collect();
         let arrays = ["first", "second", "third", "fourth"].map(ident);
         let arrays = &arrays[..outputs.len()];
-        let pattern = match self.entry(purpose).map(|entry| entry.shape) {
-            Some(ResultShape::Rows(..)) => quote!([#(#arrays),*]),
-            _ => quote!((#(#arrays),*)),
+        let shape = self.entry(purpose).map(|entry| entry.shape);
+        let pattern = match matches!(shape, Some(ResultShape::Rows(..))) {
+            true => quote!([#(#arrays),*]),
+            false => quote!((#(#arrays),*)),
         };
         let write = |call| {
             quote! {{

@@ -119,7 +119,7 @@ impl Emission<'_> {
                 | Argument::Momenta
                 | Argument::Forces
                 | Argument::Alpha
-                | Argument::Adjoint
+                | Argument::Weights
                 | Argument::Actions
                 | Argument::Difference(_)
                 | Argument::DifferenceRate(_)

@@ -36,8 +36,8 @@ pub enum Argument {
     Torques,
     /// External generalized torques on the small differences that act back, in N m.
     SmallTorques,
-    /// Weights of the outputs in the sum that a pullback differentiates.
-    Adjoint,
+    /// Weights of the results in the sum that a pullback differentiates.
+    Weights,
     /// Accelerations of the prescribed links in the set with this index, in rad/s².
     Prescribed(usize),
     /// Absolute angles or angular velocities; both are converted to symmetric coordinates by the
@@ -85,7 +85,7 @@ pub enum ResultShape {
     Transfer,
     /// Array of this many `Transfer`s.
     Transfers(usize),
-    /// Arrays of these lengths.
+    /// At most four arrays of these lengths.
     Arrays([Option<usize>; 4]),
     /// This many numbers (a single one is not an array), and an array of the remaining outputs.
     Split(usize),
@@ -110,7 +110,7 @@ impl Argument {
             Self::DifferenceRate(_) | Self::SmallRates => "difference_rate",
             Self::Torques => "torques",
             Self::SmallTorques => "difference_torques",
-            Self::Adjoint => "adjoint",
+            Self::Weights => "weights",
             Self::Prescribed(_) => "prescribed",
             Self::Absolute => "absolute",
             Self::Symmetric => "symmetric",

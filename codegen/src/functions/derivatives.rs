@@ -40,7 +40,7 @@ impl Naming {
     /// Returns the signature of the derivatives of a weighted sum of a function's results.
     pub(super) fn pullback(&self, of: Purpose) -> Signature {
         let mut signature = self.derivatives(of, "pullback");
-        signature.arguments.push(Argument::Adjoint);
+        signature.arguments.push(Argument::Weights);
         signature
     }
 

@@ -191,43 +191,54 @@ impl Setup {
         })
     }
 
-    /// Returns the derivative of a constant by a parameter of the scene, as a constant.
-    pub(super) fn derivative(&mut self, id: ConstantId, parameter: usize) -> ConstantId {
-        let definition = self.get(id);
-        if definition.exact.is_some() {
-            return self.number(Rational::from(0));
-        }
-        match definition.op.clone() {
-            ConstantOp::Number(_) => self.number(Rational::from(0)),
-            ConstantOp::Parameter(index) => {
-                self.number(Rational::from(i64::from(index == parameter)))
-            }
-            ConstantOp::Named(_, a) | ConstantOp::Called(a) => self.derivative(a, parameter),
-            ConstantOp::Add(a, b) => {
-                let (a, b) = (self.derivative(a, parameter), self.derivative(b, parameter));
-                self.add(a, b)
-            }
-            ConstantOp::Sub(a, b) => {
-                let (a, b) = (self.derivative(a, parameter), self.derivative(b, parameter));
-                self.sub(a, b)
-            }
-            ConstantOp::Product(_, powers) => {
-                // The derivative of a product f is f Σ n c′/c over its factors cⁿ.
-                let mut sum = self.number(Rational::from(0));
-                for (base, power) in powers {
-                    let slope = self.derivative(base, parameter);
-                    if self.as_number(slope).is_some_and(|slope| slope.is_zero()) {
-                        continue;
-                    }
-                    let power = self.number(Rational::from(i64::from(power)));
-                    let without = self.div(id, base);
-                    let share = self.mul(power, without);
-                    let share = self.mul(share, slope);
-                    sum = self.add(sum, share);
+    /// Returns the derivatives of constants by a parameter of the scene, as constants. The result
+    /// also has the derivatives of the constants from which they are computed.
+    ///
+    /// Linear in the number of all these constants, times a logarithm.
+    pub(super) fn derivatives(
+        &mut self,
+        of: impl IntoIterator<Item = ConstantId>,
+        parameter: usize,
+    ) -> BTreeMap<ConstantId, ConstantId> {
+        let mut slopes = BTreeMap::new();
+        for id in self.behind(of, |_| true) {
+            let slope = match self.get(id).op.clone() {
+                ConstantOp::Number(_) => self.number(Rational::from(0)),
+                ConstantOp::Parameter(index) => {
+                    self.number(Rational::from(i64::from(index == parameter)))
                 }
-                sum
-            }
+                ConstantOp::Named(_, a) | ConstantOp::Called(a) => slopes[&a],
+                ConstantOp::Add(a, b) => self.add(slopes[&a], slopes[&b]),
+                ConstantOp::Sub(a, b) => self.sub(slopes[&a], slopes[&b]),
+                ConstantOp::Product(_, powers) => self.slope_of_product(id, &powers, &slopes),
+            };
+            slopes.insert(id, slope);
         }
+        slopes
+    }
+
+    /// Returns the derivative f Σ n c′/c of a product f with factors cⁿ, whose derivatives c′ are
+    /// `slopes`.
+    fn slope_of_product(
+        &mut self,
+        product: ConstantId,
+        powers: &[(ConstantId, i32)],
+        slopes: &BTreeMap<ConstantId, ConstantId>,
+    ) -> ConstantId {
+        let mut sum = self.number(Rational::from(0));
+        for &(base, power) in powers {
+            let slope = slopes[&base];
+            // A factor that does not depend on the parameter may be zero.
+            if self.as_number(slope).is_some_and(|slope| slope.is_zero()) {
+                continue;
+            }
+            let power = self.number(Rational::from(i64::from(power)));
+            let without = self.div(product, base);
+            let share = self.mul(power, without);
+            let share = self.mul(share, slope);
+            sum = self.add(sum, share);
+        }
+        sum
     }
 
     fn combine(&mut self, a: ConstantId, b: ConstantId, exponent: i32) -> ConstantId {

@@ -9,7 +9,7 @@
 
 use super::builder::Builder;
 use super::entry_list::EntryList;
-use super::{Entry, Op, ValueId};
+use super::{ConstantId, Entry, Op, ValueId};
 use crate::functions::{Argument, Differentiated, Purpose};
 use crate::scene::{GradientRequest, Scene};
 use std::collections::{BTreeMap, BTreeSet};
@@ -28,17 +28,17 @@ impl EntryList<'_, '_> {
         }
     }
 
-    /// Returns the derivatives of an entry point by its arguments except the time, followed by
-    /// those by the parameters.
+    /// Returns the derivatives of an entry point: by its arguments except the time, then by the
+    /// parameters.
     fn pullback(&mut self, scene: &Scene, entry: &Entry, purpose: Purpose) -> Vec<ValueId> {
         let builder = &mut self.lowering.builder;
-        let weights: Vec<ValueId> = match purpose {
-            // Of the two parts of a transfer the sum is differentiated.
-            Purpose::Gradient(_) => vec![builder.integer(1); entry.outputs.len()],
-            _ => (0..entry.outputs.len())
-                .map(|index| builder.input(Argument::Adjoint, index))
-                .collect(),
-        };
+        // Of the two parts of a transfer the sum is differentiated.
+        let is_plain_sum = matches!(purpose, Purpose::Gradient(_));
+        let weights = (0..entry.outputs.len()).map(|index| match is_plain_sum {
+            true => builder.integer(1),
+            false => builder.input(Argument::Weights, index),
+        });
+        let weights: Vec<ValueId> = weights.collect();
         let adjoints = Adjoints::of(builder, &entry.outputs, &weights);
         let arguments = entry.arguments.iter();
         let mut outputs = Vec::new();
@@ -90,6 +90,8 @@ impl Adjoints {
     fn of(builder: &mut Builder, outputs: &[ValueId], weights: &[ValueId]) -> Self {
         let needed = builder.needed(outputs);
         let varying = varying(builder, &needed);
+        // Names are for new values alone: the function itself keeps its own.
+        let first_new = ValueId(builder.definitions.len() as u32);
         // A divisor of several quotients is inverted once.
         let mut divisors = BTreeMap::new();
         for &value in &needed {
@@ -107,7 +109,9 @@ impl Adjoints {
             let Some(&adjoint) = adjoints.values.get(&value) else {
                 continue;
             };
-            builder.hint_adjoint(adjoint, value);
+            if adjoint >= first_new {
+                builder.hint_adjoint(adjoint, value);
+            }
             for (operand, share) in shares(builder, value, adjoint, (&varying, &divisors)) {
                 adjoints.add(builder, operand, share);
             }
@@ -135,14 +139,18 @@ impl Adjoints {
     /// Returns the derivative by a parameter: the sum of c̅ ∂c/∂p over all constants c. The
     /// derivatives of constants are constants of the model themselves.
     fn of_parameter(&self, builder: &mut Builder, parameter: usize) -> ValueId {
+        let values = self.values.iter();
+        let constants = values.filter_map(|(&value, &adjoint)| match *builder.op(value) {
+            Op::Constant(constant) => Some((constant, adjoint)),
+            _ => None,
+        });
+        let constants: Vec<(ConstantId, ValueId)> = constants.collect();
+        let of = constants.iter().map(|&(constant, _)| constant);
+        let slopes = builder.setup.derivatives(of, parameter);
         let mut sum = builder.integer(0);
-        for (&value, &adjoint) in &self.values {
-            let Op::Constant(constant) = *builder.op(value) else {
-                continue;
-            };
-            let derivative = builder.setup.derivative(constant, parameter);
-            let derivative = builder.constant(derivative);
-            let share = builder.mul(adjoint, derivative);
+        for (constant, adjoint) in constants {
+            let slope = builder.constant(slopes[&constant]);
+            let share = builder.mul(adjoint, slope);
             sum = builder.add(sum, share);
         }
         sum
@@ -224,6 +232,7 @@ fn shares(
                 _ => builder.div(adjoint, b),
             };
             shares.push((a, quotient));
+            // The share of the divisor is −(c̅ / b) c.
             if varies(b) {
                 let share = builder.mul(quotient, value);
                 shares.push((b, builder.neg(share)));

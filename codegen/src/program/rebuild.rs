@@ -76,7 +76,7 @@ impl<'a> Rebuilt<'a> {
             // The caller supplies the symbols of elements of rows.
             Argument::Forces
             | Argument::Torques
-            | Argument::Adjoint
+            | Argument::Weights
             | Argument::SmallTorques
             | Argument::Prescribed(_)
             | Argument::Constants

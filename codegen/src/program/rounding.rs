@@ -187,7 +187,7 @@ impl Sample {
             }
             Argument::Forces
             | Argument::Alpha
-            | Argument::Adjoint
+            | Argument::Weights
             | Argument::Actions
             | Argument::Difference(_)
             | Argument::DifferenceRate(_)

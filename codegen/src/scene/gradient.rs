@@ -38,16 +38,19 @@ pub(super) fn gradient(
             let name = name.clone();
             report.error(form.span, OutputMessage::GradientForms { name });
         }
+        let is_observable = names.contains(&name);
         match name.as_str() {
             "accelerations" => request.accelerations = true,
             "energies" => request.energies = true,
             "transfer" => request.transfer = true,
-            _ if names.contains(&name) => request.observables.push(name),
+            _ if is_observable => {}
             _ => {
-                let nearest = nearest(&name, &FUNCTIONS);
+                let (name, nearest) = (name.clone(), nearest(&name, &FUNCTIONS));
                 report.error(form.span, OutputMessage::UnknownGradient { name, nearest });
             }
         }
+        // An observable may have the name of a function.
+        request.observables.extend(is_observable.then_some(name));
     }
     request
 }

@@ -41,7 +41,14 @@ pub(super) fn resolve_observables(
             let name = text.clone();
             report.error(observable.name.span(), TreeMessage::DuplicateName { name });
         }
-        let named = named && !taken && check_functions(name, &symbols, &mut functions, report);
+        let gradient = scene.requests.gradient.as_ref();
+        let has_gradient = gradient.is_some_and(|all| all.observables.contains(&text));
+        let endings: &[&str] = match has_gradient {
+            true => &["", "_gradient"],
+            false => &[""],
+        };
+        let named =
+            named && !taken && check_functions(name, endings, &symbols, &mut functions, report);
         let value = evaluate(&observable.value, &symbols, report);
         if let (true, Some(value)) = (named, value) {
             scene.requests.symmetric |= value.is_symmetric();
@@ -50,15 +57,19 @@ pub(super) fn resolve_observables(
     }
 }
 
-/// Checks that the names of the observable's functions are not yet used.
+/// Checks that the names of the observable's functions are not yet used. `endings` are those of its
+/// functions of each form.
 fn check_functions(
     name: &Ident,
+    endings: &[&str],
     symbols: &ObservableSymbols,
     functions: &mut BTreeSet<String>,
     report: &mut Faults,
 ) -> bool {
-    for form in ObservableForm::ALL {
-        let function = format!("{name}{}", form.name());
+    let forms = ObservableForm::ALL.into_iter();
+    let all = forms.flat_map(|form| endings.iter().map(move |ending| (form, ending)));
+    for (form, ending) in all {
+        let function = format!("{name}{}{ending}", form.name());
         let taken = is_method(&function)
             || symbols.is_constant(&function)
             || !functions.insert(function.clone());

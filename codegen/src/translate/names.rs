@@ -57,7 +57,7 @@ impl Names {
             | Argument::Momenta
             | Argument::Forces
             | Argument::Alpha
-            | Argument::Adjoint
+            | Argument::Weights
             | Argument::Actions
             | Argument::SmallDifferences
             | Argument::SmallRates

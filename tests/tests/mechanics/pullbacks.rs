@@ -113,7 +113,7 @@ impl<'a> Case<'a> {
                     .map(|_| random.between(0.6, 1.1)),
             );
             let outputs = function.outputs.len();
-            let weights = match derivatives.arguments.contains(&Argument::Adjoint) {
+            let weights = match derivatives.arguments.contains(&Argument::Weights) {
                 true => random.around_zero(outputs, 1.0),
                 false => vec![1.0; outputs],
             };
@@ -154,7 +154,7 @@ impl<'a> Case<'a> {
             parameters,
             |argument, index| match argument {
                 Argument::Time => T::from_f64(self.time),
-                Argument::Adjoint => T::from_f64(self.weights[index]),
+                Argument::Weights => T::from_f64(self.weights[index]),
                 argument => {
                     let place = places.iter().position(|known| *known == argument);
                     arguments[place.expect("an argument of the function") * self.links + index]
@@ -280,7 +280,7 @@ fn pullbacks_of_all_scenes_are_transposed_tangents() {
     worst.assert_below(1e-24, "⟨w, J v⟩ − ⟨Jᵀ w, v⟩");
 }
 
-/// Multiplies some numbers of a description by parameters, each of which stands in several places.
+/// Multiplies some numbers of a description by parameters, each of which occurs in several places.
 fn with_parameters(text: &str, random: &mut Random) -> String {
     let mut found = String::new();
     let mut rest = text;

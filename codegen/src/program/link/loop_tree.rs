@@ -212,7 +212,7 @@ impl LoopTree {
             | Argument::Momenta
             | Argument::Forces
             | Argument::Alpha
-            | Argument::Adjoint
+            | Argument::Weights
             | Argument::Actions
             | Argument::Difference(_)
             | Argument::DifferenceRate(_)
@@ -280,7 +280,7 @@ impl LoopTree {
             | Argument::Momenta
             | Argument::Forces
             | Argument::Alpha
-            | Argument::Adjoint
+            | Argument::Weights
             | Argument::Actions
             | Argument::Difference(_)
             | Argument::DifferenceRate(_)

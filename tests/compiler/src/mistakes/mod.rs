@@ -1,6 +1,7 @@
 //! Descriptions with a mistake, at least one for each message of the front end.
 
 mod asked;
+mod gradient;
 mod normal_form;
 mod tree;
 mod values;
@@ -14,6 +15,7 @@ pub fn mistakes() -> impl Iterator<Item = Mistake> {
         tree::MISTAKES,
         values::MISTAKES,
         asked::MISTAKES,
+        gradient::MISTAKES,
         normal_form::MISTAKES,
     ]
     .into_iter()

@@ -5,6 +5,7 @@ mod architecture;
 mod book;
 mod constants;
 mod determinism;
+mod gradients;
 mod ladder;
 mod languages;
 mod lengths;

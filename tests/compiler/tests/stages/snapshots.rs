@@ -73,19 +73,6 @@ fn simple() {
 }
 
 #[test]
-fn gradients() {
-    functions(
-        "gradients",
-        &[
-            "accelerations_under_pullback",
-            "potential_energy_gradient",
-            "reach_gradient",
-        ],
-    );
-    operations("gradients");
-}
-
-#[test]
 fn branch() {
     stages_of("branch");
     functions(
