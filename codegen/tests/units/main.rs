@@ -1,7 +1,7 @@
 //! Parts of the compiler, each on its own.
 //!
 //! The modules behind `#[path]` have unit tests that need private items. They are compiled here, with
-//! what they use of the compiler, so that the tests do not compile the whole compiler again.
+//! the parts of the compiler that they use, so that the tests do not compile the whole compiler again.
 
 #![allow(dead_code, unreachable_pub)]
 
