@@ -6,6 +6,8 @@
 //!   of the same motion, and in runs that carry a tangent (dual numbers) for each of the 17
 //!   directions.
 //!
+//! The first two also for the tree that a program reads (without tangents).
+//!
 //! All candidates take turns; the medians of the ratios of each turn are printed.
 
 use std::hint::black_box;
@@ -14,6 +16,8 @@ use std::time::Instant;
 use branched_pendulum::Parametric;
 use branched_pendulum::prelude::*;
 use branched_pendulum::scalar::Dual;
+use branched_pendulum::system::{PullbackOde, PullbackWorkspace, Workspace};
+use branched_pendulum_trees::{PendulumTree, TreeDescription};
 
 /// The paper's pendulum, with a name for each constant.
 #[branched_pendulum(
@@ -45,6 +49,9 @@ const VALUES: [(&str, f64); PARAMETERS] = [
 const STATE: usize = 6;
 
 const DIRECTIONS: usize = STATE + PARAMETERS;
+
+/// Number of evaluations in a turn.
+const EVALUATIONS: usize = 100_000;
 
 /// Number of turns.
 const ROUNDS: usize = 15;
@@ -103,7 +110,6 @@ fn main() {
         let unit = (0..DIRECTIONS).map(|k| f64::from(u8::from(k == index)));
         with_tangents.values.extend(unit);
     }
-    const EVALUATIONS: usize = 100_000;
     let mut pullback = Vec::new();
     for _ in 0..ROUNDS {
         let one = seconds(|| {
@@ -120,23 +126,20 @@ fn main() {
         });
         pullback.push(all / one);
     }
-    println!("one pullback: {:.2} evaluations", median(pullback));
+    println!(
+        "written out: one pullback {:.2} evaluations",
+        median(pullback)
+    );
 
-    let end = |_: usize, state: &[f64], slopes: &mut [f64]| {
-        slopes[1] = 1.0;
-        state[1]
-    };
+    let cases = [1e-6, 1e-9, 1e-12];
     println!("| tolerance | steps | gradient, in runs | in runs with {DIRECTIONS} tangents |");
     println!("|---|---:|---:|---:|");
-    for tolerance in [1e-6, 1e-9, 1e-12] {
+    for tolerance in cases {
         let method = Dop853::new(Options::with_tolerance(tolerance));
         let (mut by_run, mut by_tangents, mut steps) = (Vec::new(), Vec::new(), 0);
         for _ in 0..ROUNDS {
             let run = seconds(|| method.run(&ode, &start, 10.0));
-            let gradient = seconds(|| {
-                let found = method.gradient(&ode, PARAMETERS, &start, &[10.0], end);
-                steps = found.map_or(0, |found| found.steps);
-            });
+            let gradient = seconds(|| steps = steps_of_gradient(&method, &ode, &start));
             let forward = seconds(|| method.run(&tangents, &with_tangents, 10.0));
             by_run.push(gradient / run);
             by_tangents.push(gradient / forward);
@@ -146,5 +149,67 @@ fn main() {
             median(by_run),
             median(by_tangents)
         );
+    }
+    at_run_time(&start, cases);
+}
+
+/// Computes the derivatives of an angle after 10 s; returns the number of steps.
+fn steps_of_gradient(
+    method: &Dop853<f64>,
+    ode: &impl PullbackOde<f64>,
+    start: &State<f64>,
+) -> usize {
+    let end = |_: usize, state: &[f64], slopes: &mut [f64]| {
+        slopes[1] = 1.0;
+        state[1]
+    };
+    let found = method.gradient(ode, PARAMETERS, start, &[10.0], end);
+    found.map_or(0, |found| found.steps)
+}
+
+/// Prints the same for the tree that a program reads.
+fn at_run_time(start: &State<f64>, tolerances: [f64; 3]) {
+    const TEXT: &str = "gravity = g,
+        parent(mass = m_p, com = c_p, inertia = i_p, joint = j, friction = f_p) [
+            child(mass = m_c, com = c_c, inertia = i_c, friction = f_c, spring = s) * 2
+        ]";
+    let description = TreeDescription::parse(TEXT).expect("a tree");
+    let tree: PendulumTree = description.tree(&VALUES).expect("all values");
+    let (plain, pullback) = (AbsoluteAngles(&tree), tree.pullback());
+    let (mut workspace, mut back) = (Workspace::new(), PullbackWorkspace::new());
+    let (mut rates, weights) = ([0.0; STATE], [0.0, 0.0, 0.0, 1.0, -0.5, 0.25]);
+    let (mut by_state, mut by_parameters) = ([0.0; STATE], [0.0; PARAMETERS]);
+    let mut ratios = Vec::new();
+    for _ in 0..ROUNDS {
+        let one = seconds(|| {
+            for _ in 0..EVALUATIONS {
+                let state = black_box(&start.values);
+                plain.rates_with(&mut workspace, 0.0, state, &mut rates);
+            }
+        });
+        let all = seconds(|| {
+            for _ in 0..EVALUATIONS {
+                let state = black_box(&start.values);
+                let by = (&mut by_state, &mut by_parameters);
+                pullback.add_pullback(&mut back, 0.0, state, &weights, by.0, by.1);
+            }
+        });
+        ratios.push(all / one);
+    }
+    println!(
+        "at run time: one pullback {:.2} evaluations",
+        median(ratios)
+    );
+    println!("| tolerance | steps | gradient, in runs |");
+    println!("|---|---:|---:|");
+    for tolerance in tolerances {
+        let method = Dop853::new(Options::with_tolerance(tolerance));
+        let (mut by_run, mut steps) = (Vec::new(), 0);
+        for _ in 0..ROUNDS {
+            let run = seconds(|| method.run(&plain, start, 10.0));
+            let gradient = seconds(|| steps = steps_of_gradient(&method, &pullback, start));
+            by_run.push(gradient / run);
+        }
+        println!("| {tolerance:e} | {steps} | {:.2} |", median(by_run));
     }
 }

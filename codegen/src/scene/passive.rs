@@ -19,8 +19,7 @@ pub struct PassiveTorques<V = Quantity> {
     /// Stiffness of a torsion spring in the link's pivot, in N m; it acts on the angle
     /// relative to the parent (to the vertical for the root).
     pub spring: V,
-    /// Friction that is not viscous: the laws at the contacts [`FrictionContact::ALL`], in this
-    /// order.
+    /// Angle at which the spring is at rest, in rad.
     pub rest: V,
     /// Friction that is not viscous, in the order of [`FrictionContact::ALL`].
     pub laws: [FrictionLaw<V>; 2],

@@ -264,5 +264,5 @@ named! {
     most name noise nonnegative offsets omega order outliers pair parameters path pivot point
     precision recording relative_to remove_mean right rtol sample_limit sample_rate sector
     seed settling sheet smallest stable starts step step_limit t t0 text theta threads time
-    tolerance torques transverse trend unit unknown until window within x y y0 y_down zero
+    tolerance torques transverse trend unit unknown until weights window within x y y0 y_down zero
 }

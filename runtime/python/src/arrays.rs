@@ -49,6 +49,12 @@ impl<'py> Numbers<'py> {
         Ok(Self(zero.readonly()))
     }
 
+    /// Returns an array of zeros with one axis.
+    pub(crate) fn zeros(py: Python<'py>, len: usize) -> Self {
+        let zeros = PyArray1::<f64>::zeros(py, len, false);
+        Self(zeros.to_dyn().readonly())
+    }
+
     /// Returns all numbers, in an order in which the last axis varies fastest.
     pub(crate) fn to_vec(&self) -> Vec<f64> {
         self.0.as_array().iter().copied().collect()

@@ -12,6 +12,7 @@ mod events;
 mod examples;
 mod failures;
 mod following;
+mod gradients;
 mod growth;
 mod identify;
 mod interrupts;

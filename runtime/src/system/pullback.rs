@@ -47,6 +47,17 @@ impl<T: Scalar> PullbackWorkspace<T> {
             derivatives: Vec::new(),
         }
     }
+
+    /// Returns the memory of the equations themselves, and `len` numbers, which have no meaning at
+    /// first.
+    pub fn parts(&mut self, len: usize) -> (&mut Workspace<T>, &mut [T]) {
+        let Self {
+            equations,
+            derivatives,
+        } = self;
+        derivatives.resize(len, T::from_f64(f64::NAN));
+        (equations, derivatives)
+    }
 }
 
 impl<T: Scalar> Default for PullbackWorkspace<T> {
@@ -79,11 +90,7 @@ where
             return parameters_adjoint.fill(nan);
         }
         let (of_angles, of_velocities) = weights.split_at(links);
-        let PullbackWorkspace {
-            equations,
-            derivatives,
-        } = workspace;
-        derivatives.resize(2 * links + parameters_adjoint.len(), nan);
+        let (equations, derivatives) = workspace.parts(2 * links + parameters_adjoint.len());
         let (by_theta, rest) = derivatives.split_at_mut(links);
         let (by_omega, by_parameters) = rest.split_at_mut(links);
         Computes::<functions::AccelerationsPullback, T>::compute_with(

@@ -303,6 +303,15 @@ impl<T: Scalar> TranslationalSpringDamper<T> {
         }
     }
 
+    /// Returns the force that pulls the two points together (N), divided by the length of the line
+    /// (m): `offset` is the vector from the first point to the second (m), `rate` its rate of change
+    /// (m/s).
+    #[must_use]
+    pub fn force_over_length(&self, offset: [T; 2], rate: [T; 2]) -> T {
+        let force = self.pull::<T>(&Line { offset, rate }, Pull::Whole);
+        force.unwrap_or(T::from_f64(0.0))
+    }
+
     /// Returns the force that has a potential energy, divided by the length of the line; `offset`
     /// is the vector from the first point to the second.
     #[inline(always)]

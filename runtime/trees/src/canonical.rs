@@ -14,7 +14,7 @@ use crate::tree::PendulumTree;
 impl<T: Scalar> PendulumTree<T> {
     /// Returns the equations of the same links at rest, without gravity, springs and friction. With
     /// these, torques p cause the accelerations M⁻¹ p.
-    fn inertia_alone(&self) -> Equations<T> {
+    pub(crate) fn inertia_alone(&self) -> Equations<T> {
         let zero = T::from_f64(0.0);
         let none = FrictionLaw {
             coulomb: zero,

@@ -8,7 +8,8 @@
 //!
 //! A tree is a [`Model`](branched_pendulum::Model), and has the traits that compiled models have:
 //! accelerations, energies, positions, forces, torques from outside, links that are held, canonical
-//! variables, drives, Taylor series, every integrator, batches, ensembles in lanes. Momenta, linear
+//! variables, drives, Taylor series, every integrator, batches, ensembles in lanes, derivatives in
+//! reverse mode ([`PendulumTree::pullback`]). Momenta, linear
 //! modes, observables and, of trees by rule, budgets by scale are there too; of trees with copies
 //! symmetric coordinates and the energy transfer W in all its forms ([`PendulumTree::symmetric`]).
 //! The speed of code that is written out stays with compiled models: `docs/run-time-trees.md`.
@@ -40,6 +41,7 @@ mod observables;
 mod parametric;
 #[cfg(feature = "strips")]
 mod prescribed;
+mod pullback;
 mod rows;
 mod scales;
 mod series;
@@ -58,4 +60,5 @@ pub use line_points::LinePoint;
 pub use normal_form::TreeNormalForm;
 pub use observables::Observable;
 pub use parametric::{DescribedNode, EquationsOfMotion, ParameterUse};
+pub use pullback::{AccelerationSlopes, TreePullback};
 pub use tree::PendulumTree;

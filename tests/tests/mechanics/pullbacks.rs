@@ -308,6 +308,31 @@ fn with_parameters(text: &str, random: &mut Random) -> String {
     found + rest
 }
 
+/// Returns the description of a tree with friction laws, springs, straight springs, drive, offsets
+/// and parameters.
+pub(crate) fn random_description(seed: u64, random: &mut Random) -> String {
+    let recipe = Recipe {
+        links: 2 + random.below(4),
+        copies: &[1, 1, 2],
+        nested: true,
+        requests: "",
+    };
+    let sample = coupled_sample(&recipe, seed, Coupling::Any);
+    let mut text = with_parameters(&sample.text, random);
+    if random.below(3) == 0 {
+        text += ", drive(torque = 0.2 * push * cos(3 * t + push), y = 0.01 * cos(pace * t))";
+    }
+    if random.below(2) == 0 {
+        text += ", guy(link_0, at = (0.4, 0.1), to = (-0.4, height), spring = 6, rest = 0.5, \
+                 friction = 0.2 * height)";
+    }
+    if text.contains("guy(") && text.contains("drive(") {
+        // A guy beside a drive that moves the pivot is refused.
+        text = text.replace(", y = 0.01 * cos(pace * t)", "");
+    }
+    text
+}
+
 /// 200 trees with friction laws, springs, straight springs, drives, offsets and parameters.
 #[test]
 fn derivatives_of_random_trees_agree_with_differences_in_31_digits() {
@@ -315,30 +340,11 @@ fn derivatives_of_random_trees_agree_with_differences_in_31_digits() {
     let mut with = 0;
     for seed in 0..200 {
         let mut random = Random::new(9000 + seed);
-        let recipe = Recipe {
-            links: 2 + random.below(4),
-            copies: &[1, 1, 2],
-            nested: true,
-            requests: "",
-        };
-        let sample = coupled_sample(&recipe, seed, Coupling::Any);
-        let mut text = with_parameters(&sample.text, &mut random);
-        if random.below(3) == 0 {
-            text += ", drive(torque = 0.2 * push * cos(3 * t + push), y = 0.01 * cos(pace * t))";
-        }
-        if random.below(2) == 0 {
-            text += ", guy(link_0, at = (0.4, 0.1), to = (-0.4, height), spring = 6, rest = 0.5, \
-                     friction = 0.2 * height)";
-        }
-        text += match random.below(2) {
-            0 => ", emit(gradient(accelerations, energies))",
-            _ => ", emit(forces, gradient(accelerations, energies))",
-        };
-        let guyed = text.contains("guy(") && text.contains("drive(");
-        if guyed {
-            // A guy beside a drive that moves the pivot is refused.
-            text = text.replace(", y = 0.01 * cos(pace * t)", "");
-        }
+        let text = random_description(seed, &mut random)
+            + match random.below(2) {
+                0 => ", emit(gradient(accelerations, energies))",
+                _ => ", emit(forces, gradient(accelerations, energies))",
+            };
         let compiled = compile(&text);
         with += usize::from(!compiled.scene.parameters.is_empty());
         for case in Case::all(&compiled, &mut random) {

@@ -6,7 +6,7 @@ use branched_pendulum::analysis::variational::{flow_jacobian, linearised};
 use branched_pendulum::batch::Batch;
 use branched_pendulum::integrate::{Crossing, InputError, MotionGradient};
 use branched_pendulum::prelude::*;
-use branched_pendulum::system::{At, functions};
+use branched_pendulum::system::{At, WithIntegral, functions};
 use branched_pendulum_compiler_tests::random::Random;
 
 /// The apparatus of the paper with parameters, friction and a drive.
@@ -255,6 +255,37 @@ fn growth_tells_chaotic_from_regular_motions() {
     println!("{regular:.1e} {chaotic:.1e}");
     assert!(regular < 1e3, "{regular}");
     assert!(chaotic > 1e8, "{chaotic}");
+}
+
+/// The derivatives of ∫ (θ_0² + ω_1²) dt, against differences.
+#[test]
+fn derivatives_of_integrals_agree_with_differences() {
+    let integrand = |_: f64, state: &[f64], slopes: &mut [f64]| {
+        (slopes[0], slopes[4]) = (2.0 * state[0], 2.0 * state[4]);
+        state[0] * state[0] + state[4] * state[4]
+    };
+    let integral = |values: &[f64; 5], start: &State<f64>| {
+        let model = branched(values);
+        let ode = WithIntegral::new(AbsoluteAngles(&model), integrand);
+        let mut start = start.clone();
+        start.values.push(0.0);
+        let end = |_: usize, state: &[f64], slopes: &mut [f64]| {
+            slopes[6] = 1.0;
+            state[6]
+        };
+        let found = method().gradient(&ode, 5, &start, &[3.0], end);
+        found.expect("a motion")
+    };
+    let gradient = integral(&VALUES, &start());
+    let (by_start, by_parameters) = differences(&|values, start| integral(values, start).cost);
+    let [by_parameters, by_start] = [
+        error(&gradient.parameters, &by_parameters),
+        error(&gradient.start[..6], &by_start),
+    ];
+    println!("{by_parameters:.1e} {by_start:.1e}");
+    assert!(by_parameters.max(by_start) < 1e-8);
+    // The integral from the start on does not depend on what it was before.
+    assert!((gradient.start[6] - 1.0).abs() < 1e-15);
 }
 
 /// A wrong number of parameters is refused, not answered with wrong derivatives.

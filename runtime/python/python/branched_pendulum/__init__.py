@@ -18,6 +18,7 @@ from ._native import (
     __version__,
 )
 from ._results import (
+    AccelerationSlopes,
     Advice,
     Equilibrium,
     Estimate,
@@ -25,6 +26,7 @@ from ._results import (
     Growth,
     Identification,
     MeasuredRun,
+    MotionGradient,
     Prediction,
     ReleaseMap,
     Report,
@@ -36,6 +38,7 @@ from ._results import (
 )
 
 __all__ = [
+    "AccelerationSlopes",
     "Advice",
     "DescriptionError",
     "Equilibrium",
@@ -46,6 +49,7 @@ __all__ = [
     "Identification",
     "IntegrationError",
     "MeasuredRun",
+    "MotionGradient",
     "NormalForm",
     "Pendulum",
     "Prediction",

@@ -11,10 +11,12 @@ from typing_extensions import disjoint_base
 
 from ._drawing import Picture
 from ._results import (
+    AccelerationSlopes,
     Advice,
     Equilibrium,
     Growth,
     Identification,
+    MotionGradient,
     Prediction,
     Report,
     ScaleBudget,
@@ -254,6 +256,26 @@ class Tree(Pendulum):
     def inverse_dynamics(
         self, theta: ArrayLike, omega: ArrayLike, alpha: ArrayLike, time: float = 0.0
     ) -> _Array: ...
+    def pullback(
+        self,
+        theta: ArrayLike,
+        omega: ArrayLike,
+        weights: ArrayLike,
+        time: float = 0.0,
+        torques: ArrayLike | None = None,
+    ) -> AccelerationSlopes: ...
+    def gradient(
+        self,
+        cost: Callable[[_Array], tuple[float, ArrayLike]],
+        y0: ArrayLike,
+        t: ArrayLike,
+        *,
+        parameters: Sequence[str] | None = None,
+        method: Literal["auto", "dop853", "dopri5", "verner98"] = "auto",
+        rtol: float = 1e-9,
+        atol: ArrayLike | None = None,
+        max_steps: int = 1_000_000,
+    ) -> MotionGradient: ...
     @overload
     def kinetic_energy(self, theta: _One, omega: _One) -> np.float64: ...
     @overload

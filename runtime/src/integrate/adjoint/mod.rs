@@ -44,7 +44,8 @@ impl<M: EmbeddedPair, T: Real> ExplicitRungeKutta<M, T> {
     /// The derivatives are those of the numerical solution with its steps kept fixed (the discrete
     /// adjoint), exact but for rounding: each step is repeated from its stored start and
     /// differentiated backwards through its stages. Time: one run, one repetition, and one pullback
-    /// for each stage; the number of parameters does not count. Memory: one state for each step.
+    /// for each stage; the number of parameters does not count. Memory: one state for each step and
+    /// each time.
     ///
     /// In a chaotic motion the derivatives grow as fast as two nearby motions separate, and are of
     /// no use once these are apart. [`MotionGradient::growth`] says how far they grew.
@@ -112,29 +113,51 @@ impl<M: EmbeddedPair, T: Real> ExplicitRungeKutta<M, T> {
         times: &[T],
         mut cost: impl FnMut(usize, &[T], &mut [T]) -> T,
     ) -> Result<MotionGradient<T>, IntegrationError<T>> {
+        self.gradient_of_samples(ode, parameters, start, times, |samples, slopes| {
+            let all = samples.iter().zip(slopes).enumerate();
+            all.fold(T::ZERO, |sum, (index, (sample, slopes))| {
+                sum + cost(index, sample, slopes)
+            })
+        })
+    }
+
+    /// Returns a cost that depends on the states of a motion at all `times` together, with its
+    /// derivatives, as [`gradient`](Self::gradient).
+    ///
+    /// `cost` receives the states, and for each of them a vector of zeros to which it writes the
+    /// derivatives of its result by this state.
+    ///
+    /// # Errors
+    ///
+    /// As [`gradient`](Self::gradient).
+    pub fn gradient_of_samples<O: PullbackOde<T> + ?Sized>(
+        &self,
+        ode: &O,
+        parameters: usize,
+        start: &State<T>,
+        times: &[T],
+        cost: impl FnOnce(&[Vec<T>], &mut [Vec<T>]) -> T,
+    ) -> Result<MotionGradient<T>, IntegrationError<T>> {
         check_start(ode, (start.time, &start.values))?;
         check_times(start.time, times)?;
         let mut reverse = Reverse::new::<M>(start.values.len(), parameters);
         reverse.check_parameters(ode, start)?;
         let Forward {
-            cost: total,
             steps,
+            counts,
             samples,
-        } = self.forward(ode, start, times, &mut cost)?;
-        let given = largest(samples.iter().flat_map(|(_, slopes)| slopes));
+        } = self.forward(ode, start, times)?;
+        let mut slopes = vec![vec![T::ZERO; start.values.len()]; samples.len()];
+        let total = cost(&samples, &mut slopes);
+        let given = largest(slopes.iter().flatten());
         let mut left = steps.as_slice();
-        for (before, slopes) in samples.iter().rev() {
-            while left.len() > *before {
-                let Some((last, others)) = left.split_last() else {
-                    break;
-                };
-                left = others;
-                reverse.step::<M, O>(ode, last)?;
-            }
+        for (before, slopes) in counts.iter().zip(&slopes).rev() {
+            reverse.back_to::<M, O>(ode, &mut left, *before)?;
             for (adjoint, slope) in reverse.adjoint.iter_mut().zip(slopes) {
                 *adjoint += *slope;
             }
         }
+        reverse.back_to::<M, O>(ode, &mut left, 0)?;
         let gradient = MotionGradient {
             cost: total,
             start: reverse.adjoint,
@@ -158,17 +181,14 @@ impl<M: EmbeddedPair, T: Real> ExplicitRungeKutta<M, T> {
         ode: &O,
         start: &State<T>,
         times: &[T],
-        cost: &mut impl FnMut(usize, &[T], &mut [T]) -> T,
     ) -> Result<Forward<T>, IntegrationError<T>> {
-        let zeros = vec![T::ZERO; start.values.len()];
         let mut forward = Forward {
-            cost: T::ZERO,
             steps: Vec::new(),
-            // The start costs nothing.
-            samples: vec![(0, zeros.clone())],
+            counts: Vec::new(),
+            samples: Vec::new(),
         };
         let mut reached = start.clone();
-        for (index, &time) in times.iter().enumerate() {
+        for &time in times {
             if time != reached.time {
                 let solution = self.integrate(ode, &reached, time, |step| {
                     forward.steps.push(StepTaken {
@@ -180,9 +200,8 @@ impl<M: EmbeddedPair, T: Real> ExplicitRungeKutta<M, T> {
                 })?;
                 reached = solution.state;
             }
-            let mut slopes = zeros.clone();
-            forward.cost += cost(index, &reached.values, &mut slopes);
-            forward.samples.push((forward.steps.len(), slopes));
+            forward.counts.push(forward.steps.len());
+            forward.samples.push(reached.values.clone());
         }
         Ok(forward)
     }
@@ -241,9 +260,9 @@ impl<M: EmbeddedPair, T: Real> ExplicitRungeKutta<M, T> {
 
 /// A run whose cost is differentiated.
 struct Forward<T> {
-    /// Sum of the costs of all samples.
-    cost: T,
     steps: Vec<StepTaken<T>>,
-    /// Number of steps before each sample, and the derivatives of its cost by the state.
-    samples: Vec<(usize, Vec<T>)>,
+    /// Number of steps before each sample.
+    counts: Vec<usize>,
+    /// States at the samples.
+    samples: Vec<Vec<T>>,
 }

@@ -91,6 +91,24 @@ impl<T: Real> Reverse<T> {
         }
     }
 
+    /// Takes the adjoint back through the steps that are `left`, until only the first `before` of
+    /// them are.
+    pub(super) fn back_to<M: EmbeddedPair, O: PullbackOde<T> + ?Sized>(
+        &mut self,
+        ode: &O,
+        left: &mut &[StepTaken<T>],
+        before: usize,
+    ) -> Result<(), IntegrationError<T>> {
+        while left.len() > before {
+            let Some((last, others)) = left.split_last() else {
+                break;
+            };
+            *left = others;
+            self.step::<M, O>(ode, last)?;
+        }
+        Ok(())
+    }
+
     /// Takes the adjoint from the end of a step to its start.
     pub(super) fn step<M: EmbeddedPair, O: PullbackOde<T> + ?Sized>(
         &mut self,

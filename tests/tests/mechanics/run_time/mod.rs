@@ -4,6 +4,7 @@
 mod driven_tree;
 mod growth;
 mod observables;
+mod pullbacks;
 mod series;
 mod transfer;
 mod truncation;

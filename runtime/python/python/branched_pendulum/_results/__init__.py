@@ -4,6 +4,7 @@ from .. import _native
 from ._advice import Advice, MeasuredRun
 from ._budgets import ScaleAverages, ScaleBudget, SectorBudget
 from ._common import Result
+from ._gradients import AccelerationSlopes, MotionGradient
 from ._growth import Growth, ReleaseMap
 from ._identification import Estimate, FittedFrequency, Identification
 from ._motion import Report, Solution
@@ -12,6 +13,7 @@ from ._theory import Prediction
 from ._work_precision import WorkPrecision
 
 __all__ = [
+    "AccelerationSlopes",
     "Advice",
     "Equilibrium",
     "Estimate",
@@ -19,6 +21,7 @@ __all__ = [
     "Growth",
     "Identification",
     "MeasuredRun",
+    "MotionGradient",
     "Prediction",
     "ReleaseMap",
     "Report",
