@@ -13,8 +13,8 @@ pub use crate::branched_pendulum;
 #[cfg(feature = "std")]
 pub use crate::ensemble::Ensemble;
 pub use crate::integrate::{
-    DenseStep, Dop853, Dopri5, Gauss, GaussOrder, IntegrationError, Integrator, Method, Options,
-    Report, Rk4, Solution, StopReason, Taylor, Verner98,
+    AdjointMethod, DenseStep, Dop853, Dopri5, Gauss, GaussOrder, IntegrationError, Integrator,
+    Method, Options, Report, Rk4, Solution, StopReason, Taylor, Verner98,
 };
 pub use crate::model::{ParameterError, Transfer};
 pub use crate::scalar::{Real, Scalar};

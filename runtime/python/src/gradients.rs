@@ -2,7 +2,9 @@
 
 use std::sync::Mutex;
 
-use branched_pendulum::integrate::{AnyIntegrator, IntegrationError, Method, MotionGradient};
+use branched_pendulum::integrate::{
+    AdjointMethod, AnyIntegrator, IntegrationError, Method, MotionGradient,
+};
 use branched_pendulum::system::{Model, State};
 use numpy::IntoPyArray;
 use pyo3::exceptions::{PyKeyError, PyTypeError, PyUserWarning, PyValueError};
@@ -124,8 +126,8 @@ impl Tree {
     /// parameters : list of str
     ///     Names of parameters; all by default.
     /// method : str
-    ///     "dop853", "dopri5" or "verner98"; "auto" is "dop853".
-    /// rtol, atol, max_steps
+    ///     "dop853", "dopri5", "verner98" or "gauss2" to "gauss8"; "auto" is "dop853".
+    /// rtol, atol, step, max_steps
     ///     As those of `integrate`.
     ///
     /// Returns
@@ -145,7 +147,7 @@ impl Tree {
     /// >>> found = rod.gradient(angle, [0.1, 0.0], [0.0, 2.0])
     /// >>> round(found.parameters["l"], 6)
     /// 0.377023
-    #[pyo3(signature = (cost, y0, t, *, parameters = None, method = "auto", rtol = 1e-9, atol = None, max_steps = 1_000_000))]
+    #[pyo3(signature = (cost, y0, t, *, parameters = None, method = "auto", rtol = 1e-9, atol = None, step = None, max_steps = 1_000_000))]
     #[allow(clippy::too_many_arguments)]
     fn gradient<'py>(
         &self,
@@ -157,6 +159,7 @@ impl Tree {
         #[pyo3(from_py_with = named::method)] method: &str,
         #[pyo3(from_py_with = named::rtol)] rtol: f64,
         #[pyo3(from_py_with = named::atol)] atol: Option<Numbers<'py>>,
+        #[pyo3(from_py_with = named::step)] step: Option<f64>,
         #[pyo3(from_py_with = named::max_steps)] max_steps: i128,
     ) -> PyResult<Bound<'py, PyAny>> {
         if !cost.is_callable() {
@@ -178,7 +181,7 @@ impl Tree {
             automatic: Method::Dop853,
             rtol,
             atol: atol.as_ref(),
-            step: None,
+            step,
             first_step: None,
             max_step: None,
             max_steps,
@@ -208,9 +211,10 @@ impl Tree {
                 AnyIntegrator::Verner98(own) => {
                     own.gradient_of_samples(&motion, parameters, start, times, evaluate)
                 }
-                AnyIntegrator::Rk4(_) | AnyIntegrator::Taylor(_) | AnyIntegrator::Gauss(_) => {
-                    return None;
+                AnyIntegrator::Gauss(own) => {
+                    own.gradient_of_samples(&motion, parameters, start, times, evaluate)
                 }
+                AnyIntegrator::Rk4(_) | AnyIntegrator::Taylor(_) => return None,
             })
         })?;
         if let Ok(Some(error)) = raised.into_inner() {
@@ -218,7 +222,8 @@ impl Tree {
         }
         let Some(found): Option<Result<MotionGradient<f64>, IntegrationError<f64>>> = found else {
             let text = format!(
-                "`{}` has no derivatives of motions; \"dop853\", \"dopri5\" and \"verner98\" have",
+                "`{}` has no derivatives of motions; \"dop853\", \"dopri5\", \"verner98\" and \"gauss2\" to \
+                 \"gauss8\" have",
                 stepping.method()?
             );
             return Err(PyValueError::new_err(text));

@@ -84,6 +84,13 @@ def test_gradients_by_the_start_agree_with_differences():
         assert found.y0[index] == pytest.approx(difference(moved, START[index]), rel=1e-6)
 
 
+def test_gradients_of_symplectic_steps_agree_with_the_others():
+    expected = tree().gradient(squares, START, TIMES, rtol=1e-13)
+    found = tree().gradient(squares, START, TIMES, method="gauss8", step=0.01)
+    assert np.allclose(found.y0, expected.y0, rtol=1e-7)
+    assert found.parameters == pytest.approx(expected.parameters, rel=1e-7)
+
+
 def test_gradients_of_chaotic_motions_are_doubted():
     released = [2.8, 2.0, 1.0, 0.0, 0.0, 0.0]
     with pytest.warns(UserWarning, match="amplifies small changes"):

@@ -38,6 +38,11 @@ impl<'a, T: Real> DenseStep<'a, T> {
         Self { made }
     }
 
+    /// Returns the step with its polynomial.
+    pub(super) fn piece(&self) -> Piece<'_, T> {
+        self.made.piece()
+    }
+
     /// Returns the time at which the step starts.
     pub fn start_time(&self) -> T {
         self.made.times()[0]

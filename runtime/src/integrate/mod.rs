@@ -48,7 +48,7 @@ mod steps;
 mod taylor;
 mod trajectory;
 
-pub use adjoint::MotionGradient;
+pub use adjoint::{AdjointMethod, MotionGradient};
 pub use checkpoint::Checkpoint;
 pub use choice::{MethodChoice, UnknownChoice};
 pub use dense::{DenseError, DenseStep};

@@ -8,8 +8,8 @@ use alloc::vec;
 ///
 /// The state is y followed by z. The function g receives the time, the state y and a slice of zeros
 /// of the same length, to which it writes its derivatives by y. So costs that are integrals have
-/// gradients ([`ExplicitRungeKutta::gradient`](crate::integrate::ExplicitRungeKutta::gradient)): the
-/// cost is the last component at the end, if it is zero at the start.
+/// gradients ([`AdjointMethod::gradient`](crate::integrate::AdjointMethod::gradient)): the cost is
+/// the last component at the end, if it is zero at the start.
 ///
 /// # Examples
 ///

@@ -4,7 +4,7 @@
 use branched_pendulum::Parametric;
 use branched_pendulum::analysis::variational::{flow_jacobian, linearised};
 use branched_pendulum::batch::Batch;
-use branched_pendulum::integrate::{Crossing, InputError, MotionGradient};
+use branched_pendulum::integrate::{Crossing, InputError, MotionGradient, Solver};
 use branched_pendulum::prelude::*;
 use branched_pendulum::system::{At, WithIntegral, functions};
 use branched_pendulum_compiler_tests::random::Random;
@@ -92,6 +92,65 @@ fn derivatives_by_the_start_are_those_of_the_variational_equations() {
     let error = error(&gradient.start, &expected);
     println!("{error:.2e} after {} steps", gradient.steps);
     assert!(error < 1e-10, "{error}");
+}
+
+/// The steps of [`Gauss`] have one length: its derivatives by the start are those of the same
+/// steps with the variational equations, and those by parameters are differences of runs.
+#[test]
+fn gauss_has_the_derivatives_of_its_steps() {
+    let weights = [0.3, -0.8, 0.5, 0.1, -0.2, 0.7];
+    let cost = |_: usize, state: &[f64], slopes: &mut [f64]| {
+        slopes.copy_from_slice(&weights);
+        let terms = state.iter().zip(&weights);
+        terms.map(|(value, weight)| value * weight).sum()
+    };
+    for order in [
+        GaussOrder::Two,
+        GaussOrder::Four,
+        GaussOrder::Six,
+        GaussOrder::Eight,
+    ] {
+        let method = Gauss::new(order, 0.02);
+        let run = |values: &[f64; 5], start: &State<f64>| {
+            let model = branched(values);
+            let found = method.gradient(&AbsoluteAngles(&model), 5, start, &[1.0, 2.01], cost);
+            found.expect("a motion")
+        };
+        let gradient = run(&VALUES, &start());
+        let (by_start, by_parameters) = differences(&|values, start| run(values, start).cost);
+        let [by_parameters, by_start] = [
+            error(&gradient.parameters, &by_parameters),
+            error(&gradient.start, &by_start),
+        ];
+        println!("{order:?}: {by_parameters:.1e} {by_start:.1e} by differences");
+        assert!(by_parameters.max(by_start) < 1e-8);
+
+        let paper = Paper::new();
+        let ode = AbsoluteAngles(&paper);
+        let gradient = method
+            .gradient(&ode, 0, &start(), &[2.01], cost)
+            .expect("a motion");
+        let (_, columns): (_, Vec<f64>) =
+            flow_jacobian(&method, &linearised(ode), &start(), 2.01).expect("a motion");
+        let columns = columns.chunks_exact(6);
+        let expected: Vec<f64> = columns
+            .map(|column| column.iter().zip(&weights).map(|(a, b)| a * b).sum())
+            .collect();
+        let error = error(&gradient.start, &expected);
+        println!("{order:?}: {error:.1e} by the variational equations");
+        assert!(error < 1e-12, "{error}");
+    }
+    // Steps that are too long for the iteration.
+    let stiff = branched(&[9.80665, 0.27, 50.0, 0.10531, 0.01]);
+    let method = Gauss {
+        solver: Solver::Newton,
+        ..Gauss::new(GaussOrder::Four, 0.1)
+    };
+    let found = method.gradient(&AbsoluteAngles(&stiff), 5, &start(), &[1.0], cost);
+    assert!(
+        matches!(found, Err(IntegrationError::NotSolved { .. })),
+        "{found:?}"
+    );
 }
 
 /// Derivatives by start and parameters, from central differences of order 6.

@@ -271,9 +271,10 @@ class Tree(Pendulum):
         t: ArrayLike,
         *,
         parameters: Sequence[str] | None = None,
-        method: Literal["auto", "dop853", "dopri5", "verner98"] = "auto",
+        method: _Method = "auto",
         rtol: float = 1e-9,
         atol: ArrayLike | None = None,
+        step: float | None = None,
         max_steps: int = 1_000_000,
     ) -> MotionGradient: ...
     @overload

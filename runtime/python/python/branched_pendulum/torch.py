@@ -4,16 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from importlib import import_module
-from typing import Any, Literal
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from ._native import Tree
 
-__all__ = ["motion"]
+if TYPE_CHECKING:
+    from ._native import _Method
 
-_Method = Literal["auto", "dop853", "dopri5", "verner98"]
+__all__ = ["motion"]
 
 
 def motion(
@@ -39,7 +40,7 @@ def motion(
     torch: Any = import_module("torch")
     times = np.asarray(t, float)
 
-    class Motion(torch.autograd.Function):  # type: ignore[misc]
+    class Motion(torch.autograd.Function):
         @staticmethod
         def forward(ctx: Any, names: list[str], y0: Any, *values: Any) -> Any:
             ctx.tree = tree.changed(**dict(zip(names, map(float, values), strict=True)))

@@ -1,5 +1,10 @@
-//! Gradients of costs of a motion: the discrete adjoint of explicit Runge–Kutta pairs.
+//! Gradients of costs of a motion: the discrete adjoint of Runge–Kutta methods.
 
+// The types are public because a sealed trait mentions them.
+#![allow(unreachable_pub)]
+
+mod explicit;
+mod gauss;
 mod reverse;
 
 use alloc::vec;
@@ -7,15 +12,15 @@ use alloc::vec::Vec;
 use core::cell::RefCell;
 use core::ops::ControlFlow;
 
-use self::reverse::{Reverse, StepTaken, largest, non_finite};
-use super::explicit::{EmbeddedPair, ExplicitRungeKutta};
+pub use self::reverse::{Reverse, StepAdjoint};
+use self::reverse::{largest, non_finite};
 use super::integrator::Integrator;
 use super::request::{check_start, check_times};
 use super::{Crossing, Event, IntegrationError, StopReason};
 use crate::scalar::Real;
 use crate::system::{PullbackOde, State};
 
-/// A cost of a motion and its derivatives, as [`ExplicitRungeKutta::gradient`] returns them.
+/// A cost of a motion and its derivatives, as [`AdjointMethod::gradient`] returns them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MotionGradient<T> {
     /// Sum of the costs of all samples.
@@ -33,7 +38,29 @@ pub struct MotionGradient<T> {
     pub steps: usize,
 }
 
-impl<M: EmbeddedPair, T: Real> ExplicitRungeKutta<M, T> {
+/// A method with derivatives of motions in reverse mode: the explicit pairs
+/// ([`Dopri5`](super::Dopri5), [`Dop853`](super::Dop853), [`Verner98`](super::Verner98)) and
+/// [`Gauss`](super::Gauss).
+///
+/// The derivatives are those of the numerical solution with its steps kept fixed (the discrete
+/// adjoint), exact but for rounding. A step is differentiated backwards through its stages; in
+/// [`Gauss`](super::Gauss) the equations for their adjoints are iterated as those of the stages are.
+///
+/// In a chaotic motion the derivatives grow as fast as two nearby motions separate, and are of no
+/// use once these are apart. [`MotionGradient::growth`] says how far they grew.
+///
+/// Other crates cannot implement this trait.
+///
+/// Source: Sanz-Serna, SIAM Review 58 (2016) 3–33.
+pub trait AdjointMethod<T: Real> {
+    /// Adjoint of one step of the method.
+    #[doc(hidden)]
+    type Step: StepAdjoint<T>;
+
+    /// Creates the adjoint of steps, for states of this number of components.
+    #[doc(hidden)]
+    fn step_adjoint(&self, dimension: usize) -> Self::Step;
+
     /// Returns the sum of the costs of a motion at given `times`, and its derivatives by the start
     /// state and by the `parameters` (their number) of the equations.
     ///
@@ -41,16 +68,10 @@ impl<M: EmbeddedPair, T: Real> ExplicitRungeKutta<M, T> {
     /// writes the derivatives of its result by the state. The times are in the direction of the
     /// motion, and steps end at each of them.
     ///
-    /// The derivatives are those of the numerical solution with its steps kept fixed (the discrete
-    /// adjoint), exact but for rounding: each step is repeated from its stored start and
-    /// differentiated backwards through its stages. Time: one run, one repetition, and one pullback
-    /// for each stage; the number of parameters does not count. Memory: one state for each step and
-    /// each time.
-    ///
-    /// In a chaotic motion the derivatives grow as fast as two nearby motions separate, and are of
-    /// no use once these are apart. [`MotionGradient::growth`] says how far they grew.
-    ///
-    /// Source: Sanz-Serna, SIAM Review 58 (2016) 3–33.
+    /// Time: of the explicit pairs one run, one repetition, and one pullback for each stage; of
+    /// [`Gauss`](super::Gauss) one run, and as many pullbacks as evaluations. The number of
+    /// parameters does not count. Memory: one state for each step (of [`Gauss`](super::Gauss) one
+    /// for each stage too) and for each time.
     ///
     /// # Errors
     ///
@@ -105,14 +126,17 @@ impl<M: EmbeddedPair, T: Real> ExplicitRungeKutta<M, T> {
     /// assert!((gradient.parameters[0] - 2.0 * e).abs() < 1e-11);
     /// # Ok::<(), IntegrationError<f64>>(())
     /// ```
-    pub fn gradient<O: PullbackOde<T> + ?Sized>(
+    fn gradient<O: PullbackOde<T> + ?Sized>(
         &self,
         ode: &O,
         parameters: usize,
         start: &State<T>,
         times: &[T],
         mut cost: impl FnMut(usize, &[T], &mut [T]) -> T,
-    ) -> Result<MotionGradient<T>, IntegrationError<T>> {
+    ) -> Result<MotionGradient<T>, IntegrationError<T>>
+    where
+        Self: Integrator<T, O> + Sized,
+    {
         self.gradient_of_samples(ode, parameters, start, times, |samples, slopes| {
             let all = samples.iter().zip(slopes).enumerate();
             all.fold(T::ZERO, |sum, (index, (sample, slopes))| {
@@ -130,34 +154,38 @@ impl<M: EmbeddedPair, T: Real> ExplicitRungeKutta<M, T> {
     /// # Errors
     ///
     /// As [`gradient`](Self::gradient).
-    pub fn gradient_of_samples<O: PullbackOde<T> + ?Sized>(
+    fn gradient_of_samples<O: PullbackOde<T> + ?Sized>(
         &self,
         ode: &O,
         parameters: usize,
         start: &State<T>,
         times: &[T],
         cost: impl FnOnce(&[Vec<T>], &mut [Vec<T>]) -> T,
-    ) -> Result<MotionGradient<T>, IntegrationError<T>> {
+    ) -> Result<MotionGradient<T>, IntegrationError<T>>
+    where
+        Self: Integrator<T, O> + Sized,
+    {
         check_start(ode, (start.time, &start.values))?;
         check_times(start.time, times)?;
-        let mut reverse = Reverse::new::<M>(start.values.len(), parameters);
+        let mut reverse = Reverse::new(start.values.len(), parameters);
         reverse.check_parameters(ode, start)?;
+        let mut adjoint = self.step_adjoint(start.values.len());
         let Forward {
             steps,
             counts,
             samples,
-        } = self.forward(ode, start, times)?;
+        } = forward(self, &adjoint, ode, start, times)?;
         let mut slopes = vec![vec![T::ZERO; start.values.len()]; samples.len()];
         let total = cost(&samples, &mut slopes);
         let given = largest(slopes.iter().flatten());
         let mut left = steps.as_slice();
         for (before, slopes) in counts.iter().zip(&slopes).rev() {
-            reverse.back_to::<M, O>(ode, &mut left, *before)?;
+            back_to(&mut adjoint, &mut reverse, ode, &mut left, *before)?;
             for (adjoint, slope) in reverse.adjoint.iter_mut().zip(slopes) {
                 *adjoint += *slope;
             }
         }
-        reverse.back_to::<M, O>(ode, &mut left, 0)?;
+        back_to(&mut adjoint, &mut reverse, ode, &mut left, 0)?;
         let gradient = MotionGradient {
             cost: total,
             start: reverse.adjoint,
@@ -175,37 +203,6 @@ impl<M: EmbeddedPair, T: Real> ExplicitRungeKutta<M, T> {
         }
     }
 
-    /// Makes the run whose cost is differentiated, and keeps its steps.
-    fn forward<O: PullbackOde<T> + ?Sized>(
-        &self,
-        ode: &O,
-        start: &State<T>,
-        times: &[T],
-    ) -> Result<Forward<T>, IntegrationError<T>> {
-        let mut forward = Forward {
-            steps: Vec::new(),
-            counts: Vec::new(),
-            samples: Vec::new(),
-        };
-        let mut reached = start.clone();
-        for &time in times {
-            if time != reached.time {
-                let solution = self.integrate(ode, &reached, time, |step| {
-                    forward.steps.push(StepTaken {
-                        time: step.start_time(),
-                        length: step.end_time() - step.start_time(),
-                        start: step.start().to_vec(),
-                    });
-                    ControlFlow::Continue(())
-                })?;
-                reached = solution.state;
-            }
-            forward.counts.push(forward.steps.len());
-            forward.samples.push(reached.values.clone());
-        }
-        Ok(forward)
-    }
-
     /// Returns the first time at which a function of the state crosses zero, and the derivatives of
     /// this time by the start state and by the `parameters` (their number) of the equations; `None`
     /// if the function does not cross zero before the time `end`. The result's `cost` is the time.
@@ -220,7 +217,7 @@ impl<M: EmbeddedPair, T: Real> ExplicitRungeKutta<M, T> {
     ///
     /// [`IntegrationError`] as [`gradient`](Self::gradient); [`IntegrationError::NonFinite`] also if
     /// the function touches zero without crossing it, where its time has no derivatives.
-    pub fn gradient_of_crossing<O: PullbackOde<T> + ?Sized>(
+    fn gradient_of_crossing<O: PullbackOde<T> + ?Sized>(
         &self,
         ode: &O,
         parameters: usize,
@@ -228,7 +225,10 @@ impl<M: EmbeddedPair, T: Real> ExplicitRungeKutta<M, T> {
         end: T,
         crossing: Crossing,
         function: impl Fn(&[T], &mut [T]) -> T,
-    ) -> Result<Option<MotionGradient<T>>, IntegrationError<T>> {
+    ) -> Result<Option<MotionGradient<T>>, IntegrationError<T>>
+    where
+        Self: Integrator<T, O> + Sized,
+    {
         let memory = RefCell::new(vec![T::ZERO; start.values.len()]);
         let value = |_: T, state: &[T]| {
             let mut slopes = memory.borrow_mut();
@@ -259,10 +259,58 @@ impl<M: EmbeddedPair, T: Real> ExplicitRungeKutta<M, T> {
 }
 
 /// A run whose cost is differentiated.
-struct Forward<T> {
-    steps: Vec<StepTaken<T>>,
+struct Forward<S, T> {
+    steps: Vec<S>,
     /// Number of steps before each sample.
     counts: Vec<usize>,
     /// States at the samples.
     samples: Vec<Vec<T>>,
+}
+
+/// Makes the run whose cost is differentiated, and keeps its steps.
+fn forward<T: Real, O: PullbackOde<T> + ?Sized, A: StepAdjoint<T>>(
+    method: &impl Integrator<T, O>,
+    adjoint: &A,
+    ode: &O,
+    start: &State<T>,
+    times: &[T],
+) -> Result<Forward<A::Taken, T>, IntegrationError<T>> {
+    let mut forward = Forward {
+        steps: Vec::new(),
+        counts: Vec::new(),
+        samples: Vec::new(),
+    };
+    let mut reached = start.clone();
+    for &time in times {
+        if time != reached.time {
+            let solution = method.integrate(ode, &reached, time, |step| {
+                forward.steps.push(adjoint.keep(step));
+                ControlFlow::Continue(())
+            })?;
+            reached = solution.state;
+        }
+        forward.counts.push(forward.steps.len());
+        forward.samples.push(reached.values.clone());
+    }
+    Ok(forward)
+}
+
+/// Takes the adjoint back through the steps that are `left`, until only the first `before` of them
+/// are.
+fn back_to<T: Real, O: PullbackOde<T> + ?Sized, A: StepAdjoint<T>>(
+    adjoint: &mut A,
+    reverse: &mut Reverse<T>,
+    ode: &O,
+    left: &mut &[A::Taken],
+    before: usize,
+) -> Result<(), IntegrationError<T>> {
+    while left.len() > before {
+        let Some((last, others)) = left.split_last() else {
+            break;
+        };
+        *left = others;
+        adjoint.back(reverse, ode, last)?;
+        reverse.note_largest();
+    }
+    Ok(())
 }
