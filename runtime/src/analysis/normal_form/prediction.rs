@@ -138,6 +138,20 @@ pub struct Agreement {
 }
 
 impl Prediction {
+    /// Returns the growth rate minus `least`, in 1/s, continued by the negative margin where
+    /// differences do not grow: it changes its sign at the edge of a tongue. It is −∞ if no
+    /// resonance couples differences.
+    pub fn excess(&self, least: f64) -> DegreeEstimate {
+        let part = |of: fn(&DegreeEstimate) -> f64| {
+            let margin = self.margin.as_ref().map_or(f64::NEG_INFINITY, of);
+            match margin > 0.0 {
+                true => of(&self.growth_rate) - least,
+                false => margin - least,
+            }
+        };
+        DegreeEstimate::of([part(|own| own.before), part(|own| own.value)])
+    }
+
     /// Compares the results of two degrees and combines them into a prediction.
     pub(super) fn of(
         averaged: &Averaged,

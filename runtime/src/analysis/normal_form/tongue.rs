@@ -28,8 +28,10 @@ pub struct Tongues {
     pub refused: Vec<([f64; 2], Refusal)>,
 }
 
-/// Bisections of an edge.
-const BISECTIONS: usize = 14;
+/// Largest number of steps by which an edge is located, and the distance between two steps,
+/// relative to that of the samples, at which it counts as found.
+const STEPS: usize = 14;
+const FOUND: f64 = 1e-9;
 
 impl Tongue {
     /// Returns the resonance.
@@ -47,30 +49,50 @@ impl Tongue {
 
 impl Tongues {
     /// Finds the tongues on a line of releases, in which the growth rate is at least `least` (1/s).
-    /// `samples` are ascending parameters of the line; edges are located between them by bisection.
-    /// A tongue that lies between two samples is not found.
+    /// `samples` are ascending parameters of the line; edges are located between them by the secant
+    /// method with weighted ends (Illinois). A tongue that lies between two samples is not found.
     pub fn along(
         samples: &[f64],
         least: f64,
         predict: impl Fn(f64) -> Result<Prediction, Refusal>,
     ) -> Self {
         let found: Vec<Result<Prediction, Refusal>> = samples.iter().map(|s| predict(*s)).collect();
+        let of = |own: &Prediction, part: fn(&DegreeEstimate) -> f64| part(&own.excess(least));
         let excess = |index: usize, part: fn(&DegreeEstimate) -> f64| match &found[index] {
-            Ok(own) => excess(own, least, part),
+            Ok(own) => of(own, part),
             Err(_) => f64::NAN,
         };
         let edge = |inside: usize, outside: usize, part: fn(&DegreeEstimate) -> f64| {
-            let [mut inner, mut outer] = [inside, outside].map(|index| samples[index]);
-            for _ in 0..BISECTIONS {
-                let middle = 0.5 * (inner + outer);
-                let value = predict(middle).map(|own| self::excess(&own, least, part));
-                match value {
-                    Ok(value) if value >= 0.0 => inner = middle,
-                    Ok(_) => outer = middle,
-                    Err(_) => break,
+            let [mut inner, mut outer] =
+                [inside, outside].map(|index| (samples[index], excess(index, part)));
+            let width = (outer.0 - inner.0).abs();
+            let mut last = (f64::NAN, true);
+            for _ in 0..STEPS {
+                let secant = inner.0 - inner.1 * (outer.0 - inner.0) / (outer.1 - inner.1);
+                // Without a resonance the excess is −∞.
+                let at = match outer.1.is_finite() && secant.is_finite() {
+                    true => secant,
+                    false => 0.5 * (inner.0 + outer.0),
+                };
+                let Ok(prediction) = predict(at) else {
+                    return 0.5 * (inner.0 + outer.0);
+                };
+                let value = of(&prediction, part);
+                let is_inside = value >= 0.0;
+                let (moved, kept) = match is_inside {
+                    true => (&mut inner, &mut outer),
+                    false => (&mut outer, &mut inner),
+                };
+                *moved = (at, value);
+                if is_inside == last.1 && !last.0.is_nan() {
+                    kept.1 *= 0.5;
                 }
+                if (at - last.0).abs() <= FOUND * width || value == 0.0 {
+                    return at;
+                }
+                last = (at, is_inside);
             }
-            0.5 * (inner + outer)
+            0.5 * (inner.0 + outer.0)
         };
         let windows = |part: fn(&DegreeEstimate) -> f64| {
             let mut windows: Vec<[usize; 2]> = Vec::new();
@@ -150,13 +172,4 @@ fn refusals(
         before = Some(index);
     }
     refused
-}
-
-/// Growth rate above `least`, continued by the negative margin where differences do not grow.
-fn excess(prediction: &Prediction, least: f64, part: fn(&DegreeEstimate) -> f64) -> f64 {
-    let margin = prediction.margin.as_ref().map_or(f64::NEG_INFINITY, part);
-    match margin > 0.0 {
-        true => part(&prediction.growth_rate) - least,
-        false => margin - least,
-    }
 }
