@@ -2,8 +2,10 @@
 //!
 //! - [`smoothing`]: angles, velocities and accelerations behind noisy samples,
 //! - [`spectrum`]: amplitudes against frequency, and the lines of a motion,
-//! - [`identification`]: parameters of a model from motions and frequencies.
+//! - [`identification`]: parameters of a model from motions and frequencies,
+//! - [`design`]: parameters at which quantities of a model have given values.
 
+pub mod design;
 pub mod identification;
 pub mod smoothing;
 pub mod spectrum;

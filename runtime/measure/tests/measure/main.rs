@@ -2,6 +2,7 @@
 //! motions, parameters against those of simulated and measured pendulums.
 
 mod dense_regression;
+mod design;
 mod drift;
 mod equations;
 mod identification;
