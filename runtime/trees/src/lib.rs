@@ -19,6 +19,8 @@ mod bodies;
 mod canonical;
 mod carried;
 mod description;
+#[cfg(feature = "identification")]
+mod design;
 mod drive;
 mod energies;
 mod equations;
@@ -54,6 +56,8 @@ mod tree;
 
 pub use branched_pendulum_codegen::scene::{Lineage, strength_unit};
 pub use description::TreeDescription;
+#[cfg(feature = "identification")]
+pub use design::{DesignSettings, QuantityValue, TreeDesign, TreeQuantity};
 pub use error::{DescriptionError, Mistake, TreeError};
 pub use in_phase::{DifferenceGrowth, InPhaseTree};
 pub use line_points::LinePoint;
