@@ -12,6 +12,7 @@ use branched_pendulum::analysis::{EquilibriumError, ModesError, SectorModesError
 use branched_pendulum::approximate::LinearError;
 use branched_pendulum_charts::ChartError;
 use branched_pendulum_data::{CsvError, ReadError, ReadErrorKind};
+use branched_pendulum_measure::design::DesignError;
 use branched_pendulum_measure::{IdentificationError, SmoothingError, SpectrumError};
 
 use crate::input::InputDifference;
@@ -147,6 +148,9 @@ pub enum Failure {
     /// Parameters could not be identified.
     #[error("the parameters could not be identified from the measured motion")]
     Identification(#[from] IdentificationError),
+    /// No parameters were found at which a tree reaches its targets.
+    #[error("no design was found")]
+    Design(#[from] DesignError),
     /// The output folder could not be created.
     #[error("cannot create the output folder {}", path.display())]
     Folder {

@@ -4,6 +4,7 @@ pub mod advise;
 pub mod analyse;
 pub mod cascade;
 pub mod describe;
+pub mod design;
 mod differences;
 pub mod growth;
 pub mod identify;
@@ -58,6 +59,7 @@ fn subcommands() -> Vec<Subcommand> {
         subcommand("growth", growth::run),
         subcommand("map", map::run),
         subcommand("theory", theory::run),
+        subcommand("design", design::run),
         subcommand("transfer", transfer::run),
         subcommand("cascade", cascade::run),
         subcommand("analyse", analyse::run),

@@ -3,6 +3,7 @@
 mod answers;
 mod cascade;
 mod describe;
+mod design;
 mod differences;
 mod flips;
 mod frequencies;
