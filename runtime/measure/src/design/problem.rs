@@ -40,7 +40,7 @@ impl DesignVariable {
 pub struct DesignTarget {
     /// Name of the quantity.
     pub name: String,
-    /// Its goal.
+    /// Goal of the quantity.
     pub goal: Goal,
 }
 

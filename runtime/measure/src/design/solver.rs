@@ -64,7 +64,7 @@ impl Residuals<'_> {
         let solver = TrustRegionReflective::new()
             .with_absolute_scaled_gradient_tolerance(FLAT)
             .with_max_inner_attempts(TRIES);
-        // The best point counts, for whatever reason the search ends there.
+        // The best point counts, also if the solver ends with an error.
         let _ = Executor::from_start(&problem, solver, start.to_vec())
             .max_iter(STEPS)
             .run();
