@@ -260,9 +260,9 @@ macro_rules! named {
 named! {
     actions alpha atol axis bound columns count decimal definition degree delimiter dense_output dots drop_repeated
     duration first_step form frame_rate frequencies frequency friction fundamentals gravity
-    horizons interval intervals into likelihood max_step max_steps method methods mirrored
+    horizons interval intervals into least likelihood max_step max_steps method methods mirrored
     most name noise nonnegative offsets omega order outliers pair parameters path pivot point
     precision recording relative_to remove_mean right rtol sample_limit sample_rate sector
     seed settling sheet smallest stable starts step step_limit t t0 text theta threads time
-    tolerance torques transverse trend unit unknown until weights window within x y y0 y_down zero
+    tolerance torques transverse trend unit unknown until vary weights window within x y y0 y_down zero
 }

@@ -86,7 +86,12 @@ impl Tree {
         let (motion, names) = (self.tree().pullback(), self.parameter_names());
         let all = together.each(py, &[3 * n + names.len()], |given, out| {
             let slopes = motion.accelerations(time, [given[0], given[1]], Some(given[3]), given[2]);
-            let parts = [&slopes.theta, &slopes.omega, &slopes.torques, &slopes.parameters];
+            let parts = [
+                &slopes.theta,
+                &slopes.omega,
+                &slopes.torques,
+                &slopes.parameters,
+            ];
             for (out, slope) in out.iter_mut().zip(parts.into_iter().flatten()) {
                 *out = *slope;
             }
@@ -173,7 +178,10 @@ impl Tree {
         let all = self.parameter_names();
         let wanted = parameters.unwrap_or_else(|| all.clone());
         if let Some(name) = wanted.iter().find(|name| !all.contains(name)) {
-            let text = format!("the tree has no parameter `{name}`; it has {}", all.join(", "));
+            let text = format!(
+                "the tree has no parameter `{name}`; it has {}",
+                all.join(", ")
+            );
             return Err(PyKeyError::new_err(text));
         }
         let stepping = Stepping {
@@ -266,7 +274,12 @@ fn evaluated(
     let py = cost.py();
     let width = samples.first().map_or(1, Vec::len);
     let returned = cost.call1((matrix(py, samples.concat(), width)?,))?;
-    let wrong = || PyTypeError::new_err(format!("{COST}, got {}", crate::arguments::value(&returned)));
+    let wrong = || {
+        PyTypeError::new_err(format!(
+            "{COST}, got {}",
+            crate::arguments::value(&returned)
+        ))
+    };
     let parts: Vec<Bound<'_, PyAny>> = match returned.cast::<PyList>() {
         Ok(_) => return Err(wrong()),
         Err(_) => returned.extract().map_err(|_| wrong())?,

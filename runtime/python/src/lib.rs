@@ -5,6 +5,7 @@ mod arguments;
 mod arrays;
 mod branched_double;
 mod budget;
+mod design;
 mod deviations;
 mod equilibria;
 mod estimates;

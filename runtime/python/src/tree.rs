@@ -219,7 +219,11 @@ impl Tree {
     /// >>> tree.changed(m=0.3).parameters
     /// {'m': 0.3}
     #[pyo3(signature = (**parameters))]
-    fn changed(&self, py: Python<'_>, parameters: Option<Bound<'_, PyDict>>) -> PyResult<Py<Self>> {
+    pub(crate) fn changed(
+        &self,
+        py: Python<'_>,
+        parameters: Option<Bound<'_, PyDict>>,
+    ) -> PyResult<Py<Self>> {
         let mut tree = self.tree().clone();
         for (name, value) in values(parameters)? {
             tree = tree.with(&name, value).map_err(|error| wrong(py, error))?;
@@ -235,7 +239,7 @@ impl Tree {
 
     /// Values of the parameters by name, in SI units.
     #[getter]
-    fn parameters(&self) -> BTreeMap<String, f64> {
+    pub(crate) fn parameters(&self) -> BTreeMap<String, f64> {
         let names = self.tree().description().parameters();
         names
             .filter_map(|name| Some((name.to_owned(), self.tree().value(name)?)))

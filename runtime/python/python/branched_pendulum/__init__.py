@@ -20,6 +20,7 @@ from ._native import (
 from ._results import (
     AccelerationSlopes,
     Advice,
+    Design,
     Equilibrium,
     Estimate,
     FittedFrequency,
@@ -41,6 +42,7 @@ __all__ = [
     "AccelerationSlopes",
     "Advice",
     "DescriptionError",
+    "Design",
     "Equilibrium",
     "Estimate",
     "FailedMotions",

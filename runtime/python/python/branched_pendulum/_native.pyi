@@ -13,6 +13,7 @@ from ._drawing import Picture
 from ._results import (
     AccelerationSlopes,
     Advice,
+    Design,
     Equilibrium,
     Growth,
     Identification,
@@ -256,6 +257,16 @@ class Tree(Pendulum):
     def inverse_dynamics(
         self, theta: ArrayLike, omega: ArrayLike, alpha: ArrayLike, time: float = 0.0
     ) -> _Array: ...
+    def design(
+        self,
+        vary: Mapping[str, tuple[float, float]],
+        targets: Mapping[str, float | tuple[float | None, float | None]],
+        pair: tuple[str, str] | Sequence[str] | None = None,
+        *,
+        y0: ArrayLike | None = None,
+        degree: int = 8,
+        least: float = 0.02,
+    ) -> Design: ...
     def pullback(
         self,
         theta: ArrayLike,

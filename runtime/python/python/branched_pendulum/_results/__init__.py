@@ -4,6 +4,7 @@ from .. import _native
 from ._advice import Advice, MeasuredRun
 from ._budgets import ScaleAverages, ScaleBudget, SectorBudget
 from ._common import Result
+from ._design import Design
 from ._gradients import AccelerationSlopes, MotionGradient
 from ._growth import Growth, ReleaseMap
 from ._identification import Estimate, FittedFrequency, Identification
@@ -15,6 +16,7 @@ from ._work_precision import WorkPrecision
 __all__ = [
     "AccelerationSlopes",
     "Advice",
+    "Design",
     "Equilibrium",
     "Estimate",
     "FittedFrequency",
