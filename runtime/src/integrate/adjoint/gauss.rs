@@ -56,12 +56,13 @@ impl<T: Real> GaussAdjoint<T> {
         let (n, stages) = (end.len(), table.nodes.len());
         let [_, next] = &mut self.rates;
         for (i, &(large, small)) in table.weights.iter().enumerate() {
-            let weight = T::from_parts(large, small);
+            let weight = T::from_f64(large) + T::from_f64(small);
             for (k, &end) in end.iter().enumerate() {
                 let mut sum = weight * end;
                 for j in 0..stages {
                     let (large, small) = table.matrix[j * stages + i];
-                    sum += T::from_parts(large, small) * self.states[j * n + k];
+                    let weight = T::from_f64(large) + T::from_f64(small);
+                    sum += weight * self.states[j * n + k];
                 }
                 next[i * n + k] = length * sum;
             }
