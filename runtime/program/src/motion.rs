@@ -89,8 +89,8 @@ pub fn sample(
 }
 
 /// Integrates a sampled motion again with a tighter tolerance or step, from a start that differs by
-/// rounding. Returns, for each of the precisions (rad), the time from which on angles differ by
-/// more.
+/// rounding. Returns, for each of the precisions (rad), the first time at which angles differ by more:
+/// of the sampled times and of the ends of steps.
 ///
 /// # Errors
 /// [`Failure::Motion`].
@@ -102,11 +102,11 @@ pub fn horizon(
     precisions: &[f64],
 ) -> Result<Horizon<f64>, Failure> {
     let method = arguments.method(&subject.tree);
-    let finer = method.finer(arguments.setting(method));
+    let setting = arguments.setting(method);
+    let methods = [setting, method.finer(setting)].map(|own| method.with(own));
     let links = subject.tree.links();
-    let angles = samples.states.iter().map(|state| &state[..links]);
     let system = AbsoluteAngles(&subject.tree);
-    let method = method.with(finer);
-    Horizon::find(&method, &system, start, &samples.times, angles, precisions)
+    let times = &samples.times;
+    Horizon::find(methods.each_ref(), &system, start, times, links, precisions)
         .map_err(|error| Failure::Motion(Box::new(error)))
 }

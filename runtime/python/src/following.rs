@@ -98,7 +98,7 @@ impl Motion<'_> {
         };
         let found = detached(py, || {
             let motions = self.motions;
-            motions.differs_from(finer, &self.start, kept, *precision)
+            motions.differs_from([&self.method, finer], &self.start, &kept.times, *precision)
         })?;
         Ok(Some(Compared {
             precision: *precision,

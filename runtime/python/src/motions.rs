@@ -48,13 +48,14 @@ pub(crate) trait Motions: Send + Sync {
         kept: &mut Kept,
     ) -> End;
 
-    /// Compares the kept states with a run by another method, and returns the first time at which
-    /// angles differ by more than `precision` (rad).
+    /// Compares the motion of a method with that of a finer one, at the given times and at the ends
+    /// of all steps to the last of them, and returns the first time at which angles differ by more
+    /// than `precision` (rad).
     fn differs_from(
         &self,
-        finer: &AnyIntegrator<f64>,
+        methods: [&AnyIntegrator<f64>; 2],
         start: &State<f64>,
-        kept: &Kept,
+        times: &[f64],
         precision: f64,
     ) -> Result<Option<f64>, IntegrationError<f64>>;
 
@@ -195,16 +196,14 @@ impl<M: MeasuredModel> Motions for AbsoluteAngles<M> {
 
     fn differs_from(
         &self,
-        finer: &AnyIntegrator<f64>,
+        methods: [&AnyIntegrator<f64>; 2],
         start: &State<f64>,
-        kept: &Kept,
+        times: &[f64],
         precision: f64,
     ) -> Result<Option<f64>, IntegrationError<f64>> {
         let links = start.values.len() / 2;
-        let states = kept.states.chunks_exact(start.values.len().max(1));
-        let angles = states.map(|state| &state[..links]);
         let system = &M::series(self);
-        let found = Horizon::find(finer, system, start, &kept.times, angles, &[precision])?;
+        let found = Horizon::find(methods, system, start, times, links, &[precision])?;
         Ok(found.exceeded.first().copied().flatten())
     }
 

@@ -168,7 +168,8 @@ impl Pendulum {
     /// precision : float
     ///     Error of angles (rad) up to which the motion is compared with a second run, by a finer
     ///     tolerance or step and from a start that differs by rounding: `report.differs_from` is
-    ///     the first time at which they differ by more. Chaos makes later states arbitrary.
+    ///     the first time at which they differ by more, of the times `t` and of the ends of all
+    ///     steps. Chaos makes later states arbitrary.
     ///
     /// Returns
     /// -------

@@ -57,7 +57,11 @@ pub(crate) fn report<'py>(
         Some(Compared {
             precision,
             differs_from: Some(time),
-        }) => format!("{of}; a finer run differs by more than {precision:e} rad from {time} s on"),
+        }) => {
+            // Ends of steps have many digits, of which few matter.
+            let time = (1e4 * time).floor() / 1e4;
+            format!("{of}; a finer run differs by more than {precision:e} rad from {time} s on")
+        }
     };
     let number = |value: f64| value.into_pyobject(py).map(Bound::into_any);
     let count = |value: u64| value.into_pyobject(py).map(Bound::into_any);

@@ -358,6 +358,10 @@ def test_chaos_is_reported_where_a_precision_is_asked_for(method):
     assert "differs by more than" in str(chaotic.report)
     coarse = tree.integrate(y, t, method=method, precision=0.1)
     assert chaotic.report.differs_from <= coarse.report.differs_from
+    # Two times, a span and a grid: chaos begins where it does, whichever states are kept.
+    for times in ([0, 40], (0, 40), [0, 10, 40]):
+        other = tree.integrate(y, times, method=method, precision=1e-6).report.differs_from
+        assert abs(other - chaotic.report.differs_from) < 0.5, (times, other)
     quiet = tree.integrate(0.05 * y, (0, 10), method=method, precision=1e-6)
     assert quiet.report.differs_from is None and "agrees" in str(quiet.report)
     for wrong in (0.0, -1.0, np.nan, np.inf):

@@ -12,6 +12,7 @@ mod events;
 mod exponents;
 mod failures;
 mod gauss;
+mod horizon;
 mod modes;
 mod normal;
 mod order;

@@ -12,7 +12,8 @@ const LOST: f64 = 10.0;
 
 /// Comparison of a motion with a run at a tighter tolerance.
 pub(super) struct Determined {
-    /// First time (s) at which angles differ by more than the precision.
+    /// First time (s), of the rows and of the ends of steps, at which angles differ by more than the
+    /// precision.
     pub(super) until: Option<f64>,
     /// First time (s) at which angles differ by more than [`LOST`].
     lost: Option<f64>,
@@ -30,9 +31,12 @@ impl Determined {
         let precisions = [arguments.precision, LOST].map(f64::to_radians);
         let found = horizon(subject, &arguments.method, start, samples, &precisions)?;
         let in_degrees = |all: Vec<f64>| all.into_iter().map(f64::to_degrees).collect();
+        // Ends of steps have many digits, of which few matter.
+        let exceeded = |index: usize| found.exceeded.get(index).copied().flatten();
+        let rounded = |time: f64| (1e4 * time).floor() / 1e4;
         Ok(Self {
-            until: found.exceeded.first().copied().flatten(),
-            lost: found.exceeded.get(1).copied().flatten(),
+            until: exceeded(0).map(rounded),
+            lost: exceeded(1).map(rounded),
             at_end: found
                 .at_end
                 .filter(|_| found.exceeded.get(1) == Some(&None))

@@ -36,8 +36,8 @@ class Report(Result):
     #: Error of angles (rad) up to which the motion was compared with a second run: the argument
     #: of `integrate`.
     precision: float | None = None
-    #: First time (s) at which the second run differs by more; None if it does not, or was not
-    #: asked for.
+    #: First time (s), of those asked for and of the ends of steps, at which the second run differs
+    #: by more; None if it does not, or was not asked for.
     differs_from: float | None = None
 
     def __str__(self) -> str:
