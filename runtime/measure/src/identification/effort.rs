@@ -15,6 +15,9 @@ const AT_LEAST: u64 = 20_000_000;
 /// unphysical constants might need any number.
 const OF_A_SAMPLE: u64 = 600;
 const OF_A_SEGMENT: u64 = 12_000;
+/// Number of evaluations of one link's acceleration between two calls of the observer within a
+/// segment: about a millisecond of work.
+const BETWEEN_CALLS: u64 = 10_000;
 
 /// Progress of a search that is running.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -28,8 +31,8 @@ pub struct SearchProgress {
     pub rms: f64,
 }
 
-/// Observer of a search. It is called before each segment is integrated, and can end the search by
-/// returning [`ControlFlow::Break`].
+/// Observer of a search. It is called about once per millisecond while segments are integrated, and
+/// before each of them, and can end the search by returning [`ControlFlow::Break`].
 pub type SearchObserver<'a> = &'a dyn Fn(&SearchProgress) -> ControlFlow<()>;
 
 /// Work of a search.
@@ -37,6 +40,8 @@ pub(super) struct Effort<'a> {
     observer: SearchObserver<'a>,
     limit: Cell<u64>,
     spent: Cell<u64>,
+    /// Work at the last call of the observer.
+    seen: Cell<u64>,
     /// Reason why the search must end, once there is one.
     end: Cell<Option<SearchFailure>>,
     progress: Cell<SearchProgress>,
@@ -63,6 +68,7 @@ impl<'a> Effort<'a> {
             observer,
             limit: Cell::new(limit),
             spent: Cell::new(0),
+            seen: Cell::new(0),
             end: Cell::new(None),
             progress: Cell::new(SearchProgress {
                 share: 0.0,
@@ -96,6 +102,7 @@ impl<'a> Effort<'a> {
         if self.is_over() {
             return false;
         }
+        self.seen.set(self.spent.get());
         let limit = self.limit.get();
         let progress = SearchProgress {
             share: self.spent.get() as f64 / limit as f64,
@@ -115,18 +122,22 @@ impl<'a> Effort<'a> {
         if spent > self.limit.get() && !self.is_over() {
             self.end.set(Some(SearchFailure::Exhausted));
         }
-        !self.is_over()
+        match spent.saturating_sub(self.seen.get()) < BETWEEN_CALLS {
+            true => !self.is_over(),
+            false => self.may_continue(),
+        }
     }
 
     /// Runs work that ends by itself without limit, even after the search has ended, to evaluate a
     /// result.
     pub(super) fn unlimited<R>(&self, work: impl FnOnce() -> R) -> R {
         let (end, limit) = (self.end.take(), self.limit.replace(u64::MAX));
-        let spent = self.spent.get();
+        let (spent, seen) = (self.spent.get(), self.seen.get());
         let result = work();
         self.end.set(end);
         self.limit.set(limit);
         self.spent.set(spent);
+        self.seen.set(seen);
         result
     }
 

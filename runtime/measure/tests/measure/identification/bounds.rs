@@ -126,6 +126,26 @@ fn an_observer_ends_a_search_with_the_best_so_far() {
     }
 }
 
+/// The observer is called within segments too, however long they are, so that a search can be ended
+/// at any time: between two calls the work grows by some ten thousand evaluations of a link.
+#[test]
+fn an_observer_is_called_within_long_segments() {
+    for (span, seed) in [(8.0, 4), (16.0, 5), (30.0, 6)] {
+        let record = simulated([0.8, -0.5], span, 50.0, 1e-3, seed);
+        let [last, largest] = [(); 2].map(|()| Cell::new(0.0_f64));
+        let observer = |progress: &SearchProgress| {
+            let more = progress.share - last.replace(progress.share);
+            largest.set(largest.get().max(more));
+            ControlFlow::Continue(())
+        };
+        let task = five_unknown(|value| 1.1 * value);
+        let found = task.fit_by_windows(&record, 1.0, None, &observer);
+        assert!(found.unwrap().one_motion.is_ok());
+        // Of some hundred million evaluations that are allowed.
+        assert!(largest.get() < 3e-4, "{span} s: {}", largest.get());
+    }
+}
+
 /// The same result as windows first and one motion from them, step by step.
 #[test]
 fn windows_and_one_motion_are_those_of_single_calls() {
