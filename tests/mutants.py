@@ -26,6 +26,7 @@ LIBRARY = ["-p", "branched-pendulum", "--lib"]
 RUNTIME = ["-p", "branched-pendulum", "--test", "runtime"]
 DATA = ["-p", "branched-pendulum-data", "--test", "data"]
 MEASURE = ["-p", "branched-pendulum-measure", "--test", "measure"]
+PROGRAM = ["-p", "branched-pendulum-program", "--lib"]
 OUTSIDE = ["-p", "branched-pendulum-tests", "--test", "outside"]
 
 BOTH_SOLVES = "solves::both_agree_with_the_oracle_and_each_other"
@@ -34,6 +35,7 @@ BETWEEN = "between::motions_are_those_of_bodies"
 CARTESIAN = "random_trees::accelerations_agree_with_cartesian_jacobians"
 
 C, R, D, M = "codegen/src", "runtime/src", "runtime/data/src", "runtime/measure/src"
+T, P = "runtime/trees/src", "runtime/program/src"
 
 # Name, file, text, mutant, test binary, test.
 EXPRESSIONS = [
@@ -229,6 +231,28 @@ EXPRESSIONS = [
     ("frequencies that weigh by no errors of angles", f"{M}/identification/frequencies.rs",
      "beside * own.residual()", "own.residual()", MEASURE,
      "identification::frequencies::a_record_and_frequencies_weigh_by_their_errors"),
+    ("simultaneous events of a run backwards", f"{R}/integrate/events/search.rs",
+     "(further - end) * length > T::ZERO", "further - end > T::ZERO", RUNTIME,
+     "events::rough_crossings_at_one_time_are_visited_there"),
+    ("sum for the mean of the decay", f"{T}/in_phase/growth.rs",
+     "-rates.iter().skip(2 * all - own).sum::<f64>() / own as f64",
+     "-rates.iter().skip(2 * all - own).sum::<f64>()", MECHANICS,
+     "run_time::growth::decay_of_a_difference_is_the_mean_of_its_links"),
+    ("links of the first line of a run for all", f"{R}/translational/mod.rs",
+     "arm.link += place;", "();", RUNTIME, "runs::runs_of_lines_are_the_lines_one_by_one"),
+    ("size off the blocks in units of mass", f"{R}/analysis/sector_modes.rs",
+     "largest / scale", "largest", RUNTIME,
+     "sector_modes::what_couples_the_sectors_depends_on_no_unit"),
+    ("relative error bars by blocks of ratios", f"{M}/identification/ratios.rs",
+     "by_blocks: by_blocks.map(|own| own[row] * value.abs()),",
+     "by_blocks: by_blocks.map(|own| own[row]),", MEASURE,
+     "identification::deviations::deviations_of_ratios_hold_the_truth"),
+    ("few blocks suffice for error bars", f"{M}/identification/covariance.rs",
+     "count < free.len() + 2", "count < 2", MEASURE,
+     "identification::deviations::few_blocks_have_no_error_bars"),
+    ("power of the drive in budgets", f"{P}/budget.rs",
+     "acting.extend(tree.drive(*time).map(NonConservative::Drive));", "();", PROGRAM,
+     "budget::tests::the_budget_of_a_driven_tree_closes"),
 ]
 
 CONSTANTS = [

@@ -335,3 +335,32 @@ fn crossings_that_rounding_cannot_order_are_visited_at_once() {
         }
     }
 }
+
+/// Functions whose signs about their common zero are those of rounding errors are visited at one time
+/// next to it, forwards and backwards, and not at the end of the step.
+#[test]
+fn rough_crossings_at_one_time_are_visited_there() {
+    for zero in [0.7, -0.4, 2.2] {
+        let functions: Vec<_> = (0..20)
+            .map(|k| {
+                let noise = move |time: f64| 4e-14 * (f64::from(k + 1) * 1e15 * time).sin();
+                move |time: f64, _: &[f64]| time - zero + noise(time)
+            })
+            .collect();
+        let function = |k: usize| Event::new(Crossing::Either, &functions[k]);
+        let events: Vec<_> = (0..functions.len()).map(function).collect();
+        for (begin, end) in [(zero - 0.7, zero + 0.9), (zero + 0.7, zero - 0.9)] {
+            let at = State::new(begin, vec![begin.cos(), -begin.sin()]);
+            let mut visits = vec![0; events.len()];
+            dop853()
+                .integrate_with_events(&harmonic(), &at, end, &events, |found| {
+                    visits[found.event] += 1;
+                    let off = (found.time - zero).abs();
+                    assert!(off < 1e-11, "{off} from {begin}");
+                    ControlFlow::Continue(())
+                })
+                .unwrap();
+            assert_eq!(visits, vec![1; events.len()], "from {begin}");
+        }
+    }
+}

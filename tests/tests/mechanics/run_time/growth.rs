@@ -7,7 +7,7 @@ use branched_pendulum::analysis::growth::{Growth, frequency_at_rest};
 use branched_pendulum::ensemble::Ensemble;
 use branched_pendulum::prelude::*;
 use branched_pendulum::system::{Transverse, TransverseOde};
-use branched_pendulum_trees::PendulumTree;
+use branched_pendulum_trees::{DifferenceGrowth, PendulumTree};
 
 /// The paper's pendulum, its children in phase.
 #[branched_pendulum(
@@ -110,4 +110,31 @@ fn compare() {
     });
     let [worst, largest] = differences(Arms::new(), arms, &releases);
     assert!(worst < 1e-9 && largest > 1.0, "{worst:e} {largest}");
+}
+
+/// The decay is the mean over the links of an arm: friction c in its first pivot takes
+/// c (M₂₂ − M₁₂) / det M from the two rates of a difference, together.
+#[test]
+fn decay_of_a_difference_is_the_mean_of_its_links() {
+    for ([upper, lower], [long, short], friction, copies) in [
+        ([0.1, 0.05], [0.2, 0.15], 1e-3, 2),
+        ([0.3, 0.2], [0.1, 0.4], 2e-4, 2),
+        ([0.2, 0.4], [0.25, 0.1], 5e-3, 3),
+    ] {
+        let text = format!(
+            "gravity = 9.81, trunk: rod(mass = 0.4, length = 0.3) [
+                 upper: rod(mass = {upper}, length = {long}, friction = {friction}) [
+                     lower: rod(mass = {lower}, length = {short})
+                 ] * {copies}
+             ]"
+        );
+        let tree = PendulumTree::parse(&text).expect("it is right");
+        let first = upper * long * long / 3.0 + lower * long * long;
+        let between = 0.5 * lower * long * short;
+        let second = lower * short * short / 3.0;
+        let lost = friction * (second - between) / (first * second - between * between);
+        let growth = DifferenceGrowth::new(&tree, &tree.all_copies(), vec![1.0], 1e-9);
+        let decay = growth.expect("it has copies").decay();
+        assert!((decay / (0.5 * lost) - 1.0).abs() < 1e-12, "{decay} {lost}");
+    }
 }
