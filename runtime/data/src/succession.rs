@@ -251,6 +251,14 @@ impl Table {
         Ok(self.keeping(&is_kept))
     }
 
+    /// Returns the times of all rows in s; `None` where one is missing.
+    ///
+    /// # Errors
+    /// An error if the times cannot be found.
+    pub fn times(&self, clock: &Clock) -> Result<Vec<Option<f64>>, ReadError> {
+        TimeColumns::find(self, clock, &mut Vec::new())?.seconds(self)
+    }
+
     /// Returns the table with only one of several successive rows that have the same time.
     ///
     /// # Errors

@@ -196,6 +196,15 @@ impl MeasuredFile {
         Ok(read_angles(&table, &columns, &markers)?)
     }
 
+    /// Returns the times of all rows of a table, in s; `None` if a row has none, or if these options
+    /// leave rows out.
+    pub(crate) fn times(&self, table: &Table) -> Option<Vec<f64>> {
+        if self.recording.is_some() || self.drop_repeated.is_some() {
+            return None;
+        }
+        table.times(&self.clock()).ok()?.into_iter().collect()
+    }
+
     fn clock(&self) -> Clock {
         match (&self.time, self.frame_rate) {
             (Some(column), _) => Clock::Column(column.clone()),

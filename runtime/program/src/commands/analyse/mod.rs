@@ -39,7 +39,7 @@ use branched_pendulum_data::Table;
 use crate::Failure;
 use crate::frame::{Job, Progress};
 use crate::measured_file::MeasuredLinks;
-use causes::{CauseSearch, Unclosed};
+use causes::{CauseSearch, Unclosed, with_remedy};
 use leaps::Leaps;
 use spectrogram::Spectrogram;
 use verdict::Verdict;
@@ -65,7 +65,8 @@ pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
     let subject = MeasuredTree::new(&described, arguments.sector.as_deref())?;
     let hung = MeasuredLinks::new(&described, &known.offsets, &arguments.measured)?;
     let source = match &table {
-        Some(table) => Source::read(table, arguments, &hung)?,
+        Some(table) => Source::read(table, arguments, &hung)
+            .map_err(|error| with_remedy(error, table, arguments, &hung))?,
         None => Source::simulate(
             arguments,
             &constants::real(&known, &arguments.real.concat())?,

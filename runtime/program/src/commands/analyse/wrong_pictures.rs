@@ -1,5 +1,7 @@
 //! Pictures whose angles do not fit to the motion before and after them.
 
+use std::ops::Range;
+
 use super::estimate::Measured;
 
 /// Distance of an angle from its extrapolation from neighbours, in units of the usual one, that is
@@ -12,12 +14,19 @@ const NEIGHBOURS: usize = 3;
 const STRETCHES: usize = 6;
 const PART: f64 = 0.15;
 
-/// Returns the time intervals (s) in which pictures may be wrong, for up to three possible
+/// Returns the time intervals (s) in which pictures may be wrong, for several possible
 /// interpretations. At the ends of a range of wrong pictures the measured motion leaps. Therefore
 /// either only the pictures at the leaps are wrong, or those between two successive leaps, or those
 /// between the first and the last leap.
-pub fn stretches(measured: &Measured<'_>) -> Vec<Vec<[f64; 2]>> {
-    let leaps = leaps(measured);
+///
+/// Leaps are found by smoothness. `by_equations` lists the rows of leaps that violate the equations
+/// of motion, which show smaller leaps.
+pub fn stretches(measured: &Measured<'_>, by_equations: &[Range<usize>]) -> Vec<Vec<[f64; 2]>> {
+    let by_smoothness = leaps(measured);
+    let by_equations = by_equations.iter().fold(Vec::new(), |mut leaps, rows| {
+        add(&mut leaps, rows.clone(), measured.record.times.len());
+        leaps
+    });
     let pairs = |leaps: &[[usize; 2]]| match leaps.as_chunks::<2>() {
         (pairs, []) => pairs.iter().map(|[a, b]| [a[0], b[1]]).collect(),
         _ => Vec::new(),
@@ -26,8 +35,15 @@ pub fn stretches(measured: &Measured<'_>) -> Vec<Vec<[f64; 2]>> {
         [first, .., last] => vec![[first[0], last[1]]],
         _ => Vec::new(),
     };
-    let mut ways = vec![leaps.clone(), pairs(&leaps), whole(&leaps)];
-    ways.dedup();
+    let mut ways: Vec<Vec<[usize; 2]>> = Vec::new();
+    for leaps in [by_smoothness, by_equations] {
+        let own = [pairs(&leaps), whole(&leaps)];
+        for way in std::iter::once(leaps).chain(own) {
+            if !ways.contains(&way) {
+                ways.push(way);
+            }
+        }
+    }
     let times = measured.record.times;
     let count = |rows: &[[usize; 2]]| -> usize { rows.iter().map(|[a, b]| b - a + 1).sum() };
     ways.retain(|rows| {
@@ -85,14 +101,17 @@ fn leaps(measured: &Measured<'_>) -> Vec<[usize; 2]> {
         {
             continue;
         }
-        let [first, last] = [
-            row.saturating_sub(NEIGHBOURS),
-            (row + NEIGHBOURS).min(times.len() - 1),
-        ];
-        match leaps.last_mut() {
-            Some([_, end]) if first <= *end => *end = last,
-            _ => leaps.push([first, last]),
-        }
+        add(&mut leaps, row..row + 1, times.len());
     }
     leaps
+}
+
+/// Adds the surroundings of a leap to a list, or joins them to the last ones.
+fn add(leaps: &mut Vec<[usize; 2]>, rows: Range<usize>, count: usize) {
+    let first = rows.start.saturating_sub(NEIGHBOURS);
+    let last = (rows.end + NEIGHBOURS).min(count) - 1;
+    match leaps.last_mut() {
+        Some([_, end]) if first <= *end => *end = last.max(*end),
+        _ => leaps.push([first, last]),
+    }
 }

@@ -101,10 +101,10 @@ pub struct Cause {
 }
 
 impl Cause {
-    /// Returns the cause that consists of these changes. If several of them set the same option,
-    /// the last value is used.
-    pub fn of(changes: &[Change], share: f64) -> Self {
-        let words: Vec<&str> = changes.iter().map(|own| own.words.as_str()).collect();
+    /// Returns the cause that consists of these changes, and of the equations of motion if it needs
+    /// them. If several changes set the same option, the last value is used.
+    pub fn of(changes: &[Change], needs_model: bool, share: f64) -> Self {
+        let mut words: Vec<&str> = changes.iter().map(|own| own.words.as_str()).collect();
         let mut options: Vec<&String> = Vec::new();
         for option in changes.iter().flat_map(|own| &own.options) {
             let name = |option: &str| option.split(' ').next().unwrap_or_default().to_owned();
@@ -112,7 +112,11 @@ impl Cause {
             options.retain(|other| name(other) != name(option) || option.starts_with("--set"));
             options.push(option);
         }
-        let options: Vec<&str> = options.into_iter().map(String::as_str).collect();
+        let mut options: Vec<&str> = options.into_iter().map(String::as_str).collect();
+        if needs_model {
+            words.push("the equations of motion bridge the rows that are left out");
+            options.push("--model");
+        }
         Self {
             words: words.join(", and "),
             option: options.join(" "),

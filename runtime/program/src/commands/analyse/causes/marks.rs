@@ -2,7 +2,7 @@
 
 use branched_pendulum_data::Table;
 
-use crate::measured_file::{MeasuredFile, MeasuredLinks};
+use crate::measured_file::MeasuredFile;
 
 /// Positions that programs write for a lost dot.
 const MARKS: [[f64; 2]; 2] = [[0.0, 0.0], [-1.0, -1.0]];
@@ -15,11 +15,7 @@ const STRETCHES: usize = 60;
 const PART: f64 = 0.4;
 
 /// Returns the time intervals (s) in which a dot of the table is lost; `None` if there are none.
-pub(super) fn lost(
-    table: &Table,
-    file: &MeasuredFile,
-    links: &MeasuredLinks,
-) -> Option<Vec<[f64; 2]>> {
+pub(super) fn lost(table: &Table, file: &MeasuredFile) -> Option<Vec<[f64; 2]>> {
     let rows = table.rows();
     let mut is_lost = vec![false; rows];
     for track in table.tracks() {
@@ -36,16 +32,7 @@ pub(super) fn lost(
     if count == 0 || count as f64 > PART * rows as f64 {
         return None;
     }
-    let whole = MeasuredFile {
-        from: Some(f64::NEG_INFINITY),
-        to: None,
-        leave_out: Vec::new(),
-        ..file.clone()
-    };
-    let times = whole.angles(table, links).ok()?.recording.times;
-    if times.len() != rows {
-        return None;
-    }
+    let times = file.times(table)?;
     let mut stretches: Vec<[usize; 2]> = Vec::new();
     for row in (0..rows).filter(|row| is_lost[*row]) {
         match stretches.last_mut() {

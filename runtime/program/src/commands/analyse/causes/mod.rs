@@ -6,28 +6,31 @@
 
 mod change;
 mod marks;
+mod node;
 mod readings;
 mod unknowns;
+mod unreadable;
 mod words;
 
 use branched_pendulum_data::Table;
 
 pub use self::change::{Cause, Change, Kind};
+use self::node::Node;
 use self::readings::leaving_out;
+pub use self::unreadable::with_remedy;
 use super::arguments::Arguments;
-use super::estimate::{Draws, Estimate, Measured};
 use super::source::Source;
 use super::subject::MeasuredTree;
 use super::verdict::Verdict;
 use super::wrong_pictures;
 use crate::Failure;
 use crate::frame::Progress;
-use crate::measured_file::{MeasuredFile, MeasuredLinks};
+use crate::measured_file::MeasuredLinks;
 
-/// Number of draws for an interpretation that obviously does not close the budget.
-const FEW: usize = 8;
 /// Number of interpretations that are combined with others, if none closes the budget alone.
 const FIRSTS: usize = 6;
+/// Number of interpretations without wrong pictures that are always combined with others.
+const PICTURES: usize = 2;
 /// Smallest fraction of the gap that a cause must remove to be mentioned if it does not close the
 /// budget.
 const MOST: f64 = 0.5;
@@ -72,42 +75,6 @@ pub struct Unclosed<'a> {
     pub verdict: Verdict,
 }
 
-/// An interpretation of the table, with the results that follow from it.
-#[derive(Clone, Debug)]
-struct Node {
-    /// The changes that led to this interpretation.
-    changes: Vec<Change>,
-    file: MeasuredFile,
-    source: Source,
-    /// The motion estimated by smoothness only, unless equations of motion are used and it closes
-    /// the budget.
-    estimate: Estimate,
-    /// Number of draws from which its standard deviations are computed.
-    draws: usize,
-    verdict: Verdict,
-}
-
-impl Node {
-    /// The gap in its deviations.
-    fn gap(&self) -> f64 {
-        let squares = |part: usize| -> f64 {
-            self.verdict
-                .closure
-                .iter()
-                .map(|row| row[part] * row[part])
-                .sum()
-        };
-        match squares(0) / squares(1) {
-            ratio if ratio.is_finite() => ratio.sqrt(),
-            _ => f64::INFINITY,
-        }
-    }
-
-    fn has(&self, kind: Kind) -> bool {
-        self.changes.iter().any(|own| own.kind == kind)
-    }
-}
-
 impl Unclosed<'_> {
     /// Tries the usual causes of the gap.
     ///
@@ -117,7 +84,7 @@ impl Unclosed<'_> {
         progress.begin("usual causes");
         let root = self.root()?;
         let mut search = CauseSearch::default();
-        let wrong = wrong_pictures::stretches(&self.measured(&root));
+        let wrong = wrong_pictures::stretches(&self.measured(&root), &[]);
         search.leaps = wrong.first().cloned().unwrap_or_default();
         let singles = self.tried(&root, &mut search.tried, progress);
         let mut closing = self.closing(&singles);
@@ -135,30 +102,13 @@ impl Unclosed<'_> {
         Ok(search)
     }
 
-    /// Returns the original interpretation of the record, estimated by smoothness.
-    fn root(&self) -> Result<Node, Failure> {
-        let measured = Measured {
-            subject: self.subject,
-            record: self.source.record(),
-        };
-        let draws = self.arguments.draws as usize;
-        let estimate = measured.by_smoothness(self.draws(draws))?;
-        Ok(Node {
-            changes: Vec::new(),
-            file: self.arguments.measured.clone(),
-            source: self.source.clone(),
-            verdict: Verdict::of(&self.source.times, &estimate, draws),
-            estimate,
-            draws,
-        })
-    }
-
     /// Returns the interpretations that result from one by each kind of change that it does not
     /// contain yet.
     fn tried(&self, node: &Node, kinds: &mut Vec<&'static str>, progress: &Progress) -> Vec<Node> {
         let mut changes = self.readings(node);
         changes.extend(self.tilt(node, false));
-        let wrong = wrong_pictures::stretches(&self.measured(node));
+        let leaps = self.subject.leaps(node.source.record());
+        let wrong = wrong_pictures::stretches(&self.measured(node), &leaps.unwrap_or_default());
         changes.extend(wrong.into_iter().map(|stretches| {
             let words = format!(
                 "pictures with wrong or swapped markers are left out {}",
@@ -198,8 +148,19 @@ impl Unclosed<'_> {
             .filter(|node| !node.has(Kind::Friction) && self.would_exceed(node))
             .collect();
         firsts.sort_by(|one, other| one.gap().total_cmp(&other.gap()));
+        firsts.truncate(FIRSTS);
+        // Marks of lost dots and leaps are evidence by themselves, however small a part of the gap
+        // they cause. Before they are left out, a tilt or friction that is found is wrong.
+        for (kind, most) in [(Kind::Lost, 1), (Kind::Pictures, PICTURES)] {
+            let own = singles.iter().filter(|node| node.has(kind));
+            let mut own: Vec<&Node> = own.collect();
+            own.sort_by(|one, other| one.gap().total_cmp(&other.gap()));
+            own.truncate(most);
+            own.retain(|node| firsts.iter().all(|first| first.file != node.file));
+            firsts.extend(own);
+        }
         let mut pairs = Vec::new();
-        for first in firsts.into_iter().take(FIRSTS) {
+        for first in firsts {
             for pair in self.tried(first, &mut Vec::new(), progress) {
                 let is_new = pairs.iter().all(|own: &Node| {
                     own.file != pair.file || own.has(Kind::Friction) != pair.has(Kind::Friction)
@@ -231,87 +192,6 @@ impl Unclosed<'_> {
         pairs
     }
 
-    /// Returns an interpretation after one more change. `None` if the table cannot be read in this
-    /// way or the change has no effect; the inner `None` if no motion can be estimated from it.
-    fn changed(&self, node: &Node, change: Change) -> Option<Option<Node>> {
-        let source = self.read(&change.file)?;
-        if source.angles == node.source.angles {
-            return None;
-        }
-        let Some((estimate, draws)) = self.estimate(&source) else {
-            return Some(None);
-        };
-        Some(Some(Node {
-            file: change.file.clone(),
-            changes: [&node.changes[..], &[change]].concat(),
-            verdict: Verdict::of(&source.times, &estimate, draws),
-            source,
-            estimate,
-            draws,
-        }))
-    }
-
-    /// Returns an interpretation with the friction that comes nearest to closing the budget, with
-    /// as many draws as needed.
-    fn with_friction(&self, node: &Node) -> Option<Node> {
-        let braked = self.friction(node)?;
-        let draws = self.arguments.draws as usize;
-        if !braked.verdict.closes() || node.draws >= draws {
-            return Some(braked);
-        }
-        let estimate = self.measured(node).by_smoothness(self.draws(draws)).ok()?;
-        self.friction(&Node {
-            estimate,
-            draws,
-            ..node.clone()
-        })
-    }
-
-    fn measured<'n>(&'n self, node: &'n Node) -> Measured<'n> {
-        Measured {
-            subject: self.subject,
-            record: node.source.record(),
-        }
-    }
-
-    fn draws(&self, count: usize) -> Draws {
-        Draws {
-            count,
-            seed: self.arguments.seed,
-        }
-    }
-
-    /// Reads the table with other options.
-    fn read(&self, reading: &MeasuredFile) -> Option<Source> {
-        let arguments = Arguments {
-            measured: reading.clone(),
-            ..self.arguments.clone()
-        };
-        Source::read(self.table, &arguments, self.hung).ok()
-    }
-
-    /// Estimates the motion as for the original record, and returns the number of draws. If it is
-    /// obvious that the budget does not close, it uses smoothness only, and few draws.
-    fn estimate(&self, source: &Source) -> Option<(Estimate, usize)> {
-        let measured = Measured {
-            subject: self.subject,
-            record: source.record(),
-        };
-        let smooth = |draws| measured.by_smoothness(self.draws(draws)).ok();
-        let closes = |found: &Estimate, draws| Verdict::of(&source.times, found, draws).closes();
-        let few = smooth(FEW)?;
-        if !closes(&few, FEW) {
-            return Some((few, FEW));
-        }
-        let all = self.arguments.draws as usize;
-        let smooth = smooth(all)?;
-        let found = match self.arguments.model && closes(&smooth, all) {
-            true => measured.by_model(&smooth, self.draws(all)).ok()?,
-            false => smooth,
-        };
-        Some((found, all))
-    }
-
     /// Returns true if a gap as large as that of the record would exceed the standard deviations of
     /// another interpretation: at most of the times at which it exceeds its own, or by far where
     /// it is large.
@@ -340,7 +220,14 @@ impl Unclosed<'_> {
             .iter()
             .filter(|node| node.verdict.closes() && self.would_exceed(node))
             .collect();
-        closing.sort_by(|one, other| one.verdict.bars.total_cmp(&other.verdict.bars));
+        // Readings that leave lost dots in are less likely, if there are any. Equations of motion also
+        // find friction and smaller error bars: they come behind readings that do without.
+        closing.sort_by(|one, other| {
+            let [one_key, other_key] =
+                [one, other].map(|node| (!node.has(Kind::Lost), node.needs_model));
+            let bars = one.verdict.bars.total_cmp(&other.verdict.bars);
+            one_key.cmp(&other_key).then(bars)
+        });
         closing
     }
 
@@ -361,7 +248,8 @@ impl Unclosed<'_> {
 
 /// Returns the cause that an interpretation reveals.
 fn cause(root: &Node, node: &Node) -> Cause {
-    Cause::of(&node.changes, 1.0 - node.gap() / root.gap())
+    let share = 1.0 - node.gap() / root.gap();
+    Cause::of(&node.changes, node.needs_model, share)
 }
 
 /// Stretches of time in words.

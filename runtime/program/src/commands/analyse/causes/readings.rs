@@ -1,7 +1,7 @@
 //! Changes in the interpretation of a table: its unit, its directions, the order of its columns or
 //! dots.
 
-use branched_pendulum_data::{AngleUnit, FileKind};
+use branched_pendulum_data::{AngleUnit, FileKind, Table};
 
 use super::change::{Change, Kind};
 use super::marks;
@@ -21,25 +21,12 @@ impl Unclosed<'_> {
         };
         changes.extend(sides(file));
         changes.extend(self.release(file));
-        changes.extend(self.lost(file));
+        changes.extend(lost(self.table, file));
         changes
     }
 
     fn of_columns(&self, file: &MeasuredFile, names: &[String]) -> Vec<Change> {
-        let mut changes = Vec::new();
-        for (unit, words, option) in [
-            (AngleUnit::Degrees, "angles are degrees", "--unit deg"),
-            (AngleUnit::Radians, "angles are radians", "--unit rad"),
-        ] {
-            // Their size distinguishes counts from angles.
-            let is_known =
-                matches!(file.unit, Some(AngleUnit::Counts(_))) || self.names_unit(names);
-            if !is_known {
-                changes.push(change(file, Kind::Unit, words, option, |file| {
-                    file.unit = Some(unit);
-                }));
-            }
-        }
+        let mut changes = units(self.table, file, names);
         for (zero, words, option) in [
             (
                 Zero::Up,
@@ -82,14 +69,6 @@ impl Unclosed<'_> {
             file.relative = !file.relative;
         }));
         changes
-    }
-
-    /// Returns true if the columns of these links name their unit, which is then trusted.
-    fn names_unit(&self, names: &[String]) -> bool {
-        names.iter().any(|name| {
-            let column = self.table.column(name).ok();
-            column.is_some_and(|column| !self.table.columns()[column].unit.is_empty())
-        })
     }
 
     fn of_dots(&self, file: &MeasuredFile) -> Vec<Change> {
@@ -163,17 +142,40 @@ impl Unclosed<'_> {
             file.from = Some(release);
         }))
     }
+}
 
-    /// Returns the change that leaves out rows in which a dot was lost, detected by the marks that
-    /// programs write.
-    fn lost(&self, file: &MeasuredFile) -> Option<Change> {
-        let stretches = marks::lost(self.table, file, self.hung)?;
-        let words = format!(
-            "dots are lost {}, where they have a mark or stay in one place",
-            stretches_in_words(&stretches)
-        );
-        Some(leaving_out(file, Kind::Lost, words, &stretches))
+/// Returns the changes of the unit of angles, if no column of these links names its unit.
+pub(super) fn units(table: &Table, file: &MeasuredFile, names: &[String]) -> Vec<Change> {
+    let names_unit = |name: &String| {
+        let column = table.column(name).ok();
+        column.is_some_and(|column| !table.columns()[column].unit.is_empty())
+    };
+    // Their size distinguishes counts from angles.
+    let is_known = matches!(file.unit, Some(AngleUnit::Counts(_))) || names.iter().any(names_unit);
+    if is_known {
+        return Vec::new();
     }
+    let units = [
+        (AngleUnit::Degrees, "angles are degrees", "--unit deg"),
+        (AngleUnit::Radians, "angles are radians", "--unit rad"),
+    ];
+    let units = units.map(|(unit, words, option)| {
+        change(file, Kind::Unit, words, option, |file| {
+            file.unit = Some(unit);
+        })
+    });
+    units.into()
+}
+
+/// Returns the change that leaves out rows in which a dot was lost, detected by the marks that
+/// programs write.
+pub(super) fn lost(table: &Table, file: &MeasuredFile) -> Option<Change> {
+    let stretches = marks::lost(table, file)?;
+    let words = format!(
+        "dots are lost {}, where they have a mark or stay in one place",
+        stretches_in_words(&stretches)
+    );
+    Some(leaving_out(file, Kind::Lost, words, &stretches))
 }
 
 /// Returns the change that leaves out time intervals (s).

@@ -65,7 +65,8 @@ impl Record {
     fn spoil(&mut self, fault: Fault, random: &mut Random) {
         let count = self.times.len();
         let first = random.whole(count / 5, 4 * count / 5);
-        let link = random.whole(0, 2);
+        let links = self.angles[0].len();
+        let link = random.whole(0, links - 1);
         let until = |length: usize| first + length;
         match fault {
             Fault::Step => {
@@ -98,7 +99,7 @@ impl Record {
             }
             Fault::Exchange => {
                 let end = until(random.whole(6, 30));
-                let other = (link + 1) % 3;
+                let other = (link + 1) % links;
                 self.angles[first..end]
                     .iter_mut()
                     .for_each(|row| row.swap(link, other));
@@ -126,35 +127,50 @@ impl Record {
     }
 
     fn table(&self) -> Table {
-        let mut text = "time (s),parent (rad),left (rad),right (rad)\n".to_owned();
+        let names = (1..=self.angles[0].len()).map(|link| format!("theta{link} (rad)"));
+        let mut text = format!("time (s),{}\n", names.collect::<Vec<_>>().join(","));
         for (time, row) in self.times.iter().zip(&self.angles) {
-            writeln!(text, "{time:.6},{:.6},{:.6},{:.6}", row[0], row[1], row[2]).unwrap();
+            let angles = row.iter().map(|angle| format!("{angle:.6}"));
+            writeln!(text, "{time:.6},{}", angles.collect::<Vec<_>>().join(",")).unwrap();
         }
         Table::parse("film.csv", &text, &TableOptions::default()).unwrap()
     }
 }
 
-/// Arguments of a simulated film.
+/// Arguments of a simulated film: of a double pendulum, or of the paper's tree of three links.
 fn film(seed: u64) -> (Arguments, Random) {
     let mut random = Random(Xoshiro256PlusPlus::seed_from_u64(seed));
     let rate = [60, 120, 240][random.whole(0, 2)];
+    let large = random.within([15.0, 75.0]);
+    let release = match seed % 3 {
+        0 => {
+            let lower = random.within([-90.0, 90.0]);
+            format!("--tree double-pendulum --start {large},{lower}")
+        }
+        _ => format!(
+            "--start parent={large} --difference {}",
+            random.within([0.01, 0.1])
+        ),
+    };
     let line = format!(
-        "--start parent={} --difference {} --rate {rate} --duration {} --noise {} --seed {seed}",
-        random.within([15.0, 75.0]),
-        random.within([0.01, 0.1]),
+        "{release} --rate {rate} --duration {} --noise {} --seed {seed}",
         random.within([2.0, 4.0]),
         random.within([1e-4, 5e-4]),
     );
     (parse_line(&line).unwrap(), random)
 }
 
-/// What became of a record.
+/// Everything that is reported about a record.
 struct Outcome {
-    /// Stretches of time (s) that are reported as leaps or exchanges: by the equations or by the reader.
-    stretches: Vec<[f64; 2]>,
-    /// Times of the samples that are marked as outliers, s.
+    /// Stretches of time (s) that the reader reports as leaps or exchanges, or for which it refuses
+    /// the table.
+    by_reader: Vec<[f64; 2]>,
+    /// Times of the samples that the reader marks as outliers, s.
     marked: Vec<f64>,
-    estimate: Estimate,
+    /// Stretches of time (s) that are leaps by the equations of motion.
+    by_equations: Vec<[f64; 2]>,
+    /// `None` for a table that is refused.
+    estimate: Option<Estimate>,
 }
 
 /// Most rows between a fault and the stretch in which it is reported, and of that stretch.
@@ -165,14 +181,23 @@ impl Outcome {
     fn of(arguments: &Arguments, subject: &MeasuredTree, record: &Record) -> Self {
         let table = record.table();
         let links = hung(arguments);
-        let source = Source::read(&table, arguments, &links).unwrap();
+        let source = match Source::read(&table, arguments, &links) {
+            Ok(source) => source,
+            Err(error) => {
+                return Self {
+                    by_reader: stretches(&error.to_string()),
+                    marked: Vec::new(),
+                    by_equations: Vec::new(),
+                    estimate: None,
+                };
+            }
+        };
         let leaps = Leaps::of(subject, &source).unwrap();
         let recording = arguments.measured.angles(&table, &links).unwrap().recording;
         let words = source.findings.iter().map(ToString::to_string);
         let is_of_rows =
             |words: &String| words.contains("angles leap") || words.contains("changed back");
         let by_reader = words.filter(is_of_rows);
-        let stretches = by_reader.flat_map(|words| stretches(&words));
         let is_marked = |sample: &Sample| matches!(sample, Sample::Outlier(_));
         let marked = recording.links.iter().flat_map(|link| {
             let rows = link.samples.iter().zip(&recording.times);
@@ -182,25 +207,28 @@ impl Outcome {
             subject,
             record: source.record(),
         };
+        let draws = Draws { count: 20, seed: 1 };
         Self {
-            stretches: leaps.times.into_iter().chain(stretches).collect(),
+            by_reader: by_reader.flat_map(|words| stretches(&words)).collect(),
             marked: marked.collect(),
-            estimate: measured
-                .by_smoothness(Draws { count: 20, seed: 1 })
-                .unwrap(),
+            by_equations: leaps.times,
+            estimate: Some(measured.by_smoothness(draws).unwrap()),
         }
     }
 
-    /// Returns true if a row next to an edge of the fault is reported.
-    fn reports(&self, record: &Record) -> bool {
+    /// Returns true if a row next to an edge of the fault is reported: by the reader, and by the
+    /// equations of motion.
+    fn reports(&self, record: &Record) -> [bool; 2] {
         let row = record.times[1] - record.times[0];
-        let marked = self.marked.iter().map(|time| [*time; 2]);
-        let mut all = self.stretches.iter().copied().chain(marked);
-        all.any(|[from, to]| {
+        let is_near = |[from, to]: [f64; 2]| {
             let mut edges = record.edges.iter().map(|edge| record.times[*edge]);
             to - from <= LONGEST * row
                 && edges.any(|edge| from - NEAR * row <= edge && edge <= to + NEAR * row)
-        })
+        };
+        let marked = self.marked.iter().map(|time| [*time; 2]);
+        let mut by_reader = self.by_reader.iter().copied().chain(marked);
+        let mut by_equations = self.by_equations.iter().copied();
+        [by_reader.any(is_near), by_equations.any(is_near)]
     }
 }
 
@@ -225,7 +253,10 @@ fn stretches(words: &str) -> Vec<[f64; 2]> {
 }
 
 /// Returns true if the energy or the power differs at any time by more than the error bar of 95 %.
-fn matters(right: &Estimate, wrong: &Estimate) -> bool {
+fn matters(right: &Outcome, wrong: &Outcome) -> bool {
+    let (Some(right), Some(wrong)) = (&right.estimate, &wrong.estimate) else {
+        return true;
+    };
     let rows = right.energies.means.iter().zip(&right.energies.deviations);
     let mut rows = rows.zip(&wrong.energies.means);
     rows.any(|((right, deviation), wrong)| {
@@ -240,6 +271,8 @@ struct Counts {
     matter: usize,
     /// Those of them that are reported.
     reported: usize,
+    /// Those of them that are reported by the reader, which knows no equations of motion.
+    by_reader: usize,
     /// Faults that are reported and do not change the result, since the reader mends them.
     mended: usize,
 }
@@ -268,13 +301,15 @@ fn faults(fault: Fault, seeds: std::ops::Range<u64>) -> Counts {
         let right = Outcome::of(&arguments, &subject, &record);
         record.spoil(fault, &mut random);
         let wrong = Outcome::of(&arguments, &subject, &record);
-        let is_reported = wrong.reports(&record);
-        if !matters(&right.estimate, &wrong.estimate) {
+        let by = wrong.reports(&record);
+        let is_reported = by.contains(&true);
+        if !matters(&right, &wrong) {
             counts.mended += usize::from(is_reported);
             continue;
         }
         counts.matter += 1;
         counts.reported += usize::from(is_reported);
+        counts.by_reader += usize::from(by[0]);
         if !is_reported {
             let rate = arguments.rate;
             eprintln!("{fault:?} {seed}: rows {:?} at {rate} Hz", record.edges);
@@ -283,18 +318,22 @@ fn faults(fault: Fault, seeds: std::ops::Range<u64>) -> Counts {
     counts
 }
 
-/// Returns the number of right records in which something is reported.
-fn false_reports(seeds: std::ops::Range<u64>) -> usize {
-    let is_false = |seed: &u64| {
-        let (arguments, _, subject, record) = simulated(*seed);
+/// Returns the number of right records in which something is reported: at all, and by the reader.
+fn false_reports(seeds: std::ops::Range<u64>) -> [usize; 2] {
+    let mut wrong = [0; 2];
+    for seed in seeds {
+        let (arguments, _, subject, record) = simulated(seed);
         let right = Outcome::of(&arguments, &subject, &record);
-        let is_false = !right.stretches.is_empty();
-        if is_false {
-            eprintln!("right {seed}: {:?}", right.stretches);
+        let [by_reader, by_equations] =
+            [&right.by_reader, &right.by_equations].map(|own| !own.is_empty());
+        if by_reader || by_equations {
+            let (reader, equations) = (&right.by_reader, &right.by_equations);
+            eprintln!("right {seed}: reader {reader:?}, equations {equations:?}");
         }
-        is_false
-    };
-    seeds.filter(is_false).count()
+        wrong[0] += usize::from(by_reader || by_equations);
+        wrong[1] += usize::from(by_reader);
+    }
+    wrong
 }
 
 /// Some records of each kind: what changes the result is reported, and right records are not.
@@ -306,7 +345,7 @@ fn faults_that_matter_are_reported() {
         assert_eq!(counts.reported, counts.matter, "{fault:?}");
         assert!(counts.matter + counts.mended > 0, "{fault:?}");
     }
-    assert_eq!(false_reports(1000..1012), 0);
+    assert_eq!(false_reports(1000..1012), [0, 0]);
 }
 
 /// Three hundred records of each kind, and as many right ones.
@@ -314,19 +353,31 @@ fn faults_that_matter_are_reported() {
 #[ignore = "takes half an hour of processor time"]
 fn faults_of_300_records() {
     let count = std::env::var("RECORDS").map_or(300, |count| count.parse().unwrap());
+    let wanted = std::env::var("KIND").ok();
+    let mut missed = Vec::new();
     for fault in FAULTS {
+        if wanted
+            .as_ref()
+            .is_some_and(|own| *own != format!("{fault:?}"))
+        {
+            continue;
+        }
         let Counts {
             matter,
             reported,
+            by_reader,
             mended,
         } = faults(fault, 0..count);
         println!(
-            "{fault:?}: {matter} of {count} matter, {reported} of them are reported; {mended} others \
-             are reported"
+            "{fault:?}: {matter} of {count} matter, {reported} of them are reported, {by_reader} without a \
+             tree; {mended} others are reported"
         );
-        assert!(10 * reported >= 9 * matter, "{fault:?}");
+        if 10 * reported < 9 * matter {
+            missed.push(fault);
+        }
     }
-    let wrong = false_reports(0..count);
-    println!("right: {wrong} of {count} are reported");
+    let [wrong, by_reader] = false_reports(0..count);
+    println!("right: {wrong} of {count} are reported, {by_reader} without a tree");
+    assert!(missed.is_empty(), "{missed:?}");
     assert!(100 * wrong <= count as usize);
 }

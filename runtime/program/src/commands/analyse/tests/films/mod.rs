@@ -8,6 +8,7 @@ use std::collections::BTreeMap;
 use branched_pendulum_data::{Table, TableOptions};
 
 use self::scene::{Fault, film};
+use super::super::causes::with_remedy;
 use super::super::{Arguments, Source, judged};
 use super::{hung, tree};
 use crate::frame::Progress;
@@ -20,7 +21,17 @@ fn judge(text: &str, options: &[String]) -> Result<Option<String>, String> {
     let arguments: Arguments = parse_line(&line).map_err(|error| format!("{error:?}"))?;
     let (_, subject) = tree(&arguments);
     let hung = hung(&arguments);
-    let source = Source::read(&table, &arguments, &hung).map_err(|error| format!("{error:?}"))?;
+    let source = Source::read(&table, &arguments, &hung);
+    let source = match source.map_err(|error| with_remedy(error, &table, &arguments, &hung)) {
+        Ok(source) => source,
+        Err(error) => {
+            // A table that is refused has an advice too.
+            let words = error.to_string();
+            let advice = words.split_once("help: write `");
+            let advice = advice.and_then(|(_, rest)| rest.split('`').next());
+            return advice.map(|own| Some(own.to_owned())).ok_or(words);
+        }
+    };
     let progress = Progress::default();
     let table = Some((&table, &hung));
     let found = judged(&arguments, &subject, table, &source, &progress);
@@ -115,15 +126,28 @@ fn the_direction_of_y_is_named_after_a_late_release() {
     assert!(advised >= 2, "{advised}");
 }
 
-/// Keeps what is reached. The targets, 95 % of first causes true and 90 % of budgets closed, are nearly
-/// reached: of 117 films, 108 do not close; the first cause is true for 102 of them (94.4 %), and 97
-/// (89.8 %) close by it.
+/// A film that cannot be read as it is names the option with which it can: lost dots with a mark that
+/// is far away, and degrees that are taken for radians.
+#[test]
+fn films_that_are_refused_name_the_option_that_reads_them() {
+    for (number, option) in [
+        (14, "--leave-out 1.36:"),
+        (21, "--unit deg"),
+        (66, "--unit deg"),
+    ] {
+        let film = film(number);
+        let advice = judge(&film.text, &film.options).unwrap().unwrap();
+        assert!(advice.starts_with(option), "{}: {advice}", film.words);
+    }
+}
+
+/// Keeps what is reached.
 #[test]
 fn the_first_cause_of_a_film_is_mostly_a_true_one() {
     let [all, named, closed] = counted(0..16);
     assert!(all >= 10, "{all}");
     assert!(
-        all - named <= 2 && all - closed <= 3,
+        all - named <= 1 && all - closed <= 2,
         "{all} {named} {closed}"
     );
 }
@@ -132,7 +156,12 @@ fn the_first_cause_of_a_film_is_mostly_a_true_one() {
 #[test]
 #[ignore = "several minutes"]
 fn the_first_cause_of_300_films_is_a_true_one() {
-    let [all, named, closed] = counted(0..300);
+    // Numbers of other films, as 300,301,500.
+    let wanted = std::env::var("FILMS").ok();
+    let [all, named, closed] = match &wanted {
+        Some(wanted) => counted(wanted.split(',').map(|film| film.parse().unwrap())),
+        None => counted(0..300),
+    };
     println!("of {all} films that do not close: first cause true {named}, closed by it {closed}");
     assert!(100 * named >= 95 * all && 100 * closed >= 90 * all);
 }
