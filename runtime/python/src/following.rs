@@ -138,6 +138,7 @@ impl Motion<'_> {
 }
 
 impl Pendulum {
+    #[allow(clippy::too_many_arguments)]
     pub(crate) fn follow<'py>(
         &self,
         py: Python<'py>,
