@@ -30,7 +30,7 @@ def test_frequency_of_a_difference_is_that_of_the_child_alone():
 
 
 def test_differences_grow_from_the_threshold_on():
-    found = tree().design({"joint": (0.25, 0.32)}, {"threshold": 24.0}, PAIR)
+    found = tree().design({"joint": (0.25, 0.32)}, {"threshold": 24.0}, PAIR, degree=10)
     assert found.reached and found.errors["threshold"] < 0.1
     starts = np.zeros((2, 6))
     starts[:, 0] = np.radians([23.5, 24.6])
