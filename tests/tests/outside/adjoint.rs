@@ -153,6 +153,32 @@ fn gauss_has_the_derivatives_of_its_steps() {
     );
 }
 
+/// Of a motion of many steps only some states are kept; the others are computed again.
+#[test]
+fn derivatives_of_many_steps_are_those_of_few() {
+    let model = branched(&VALUES);
+    let ode = AbsoluteAngles(&model);
+    let cost = |_: usize, state: &[f64], slopes: &mut [f64]| {
+        slopes[2] = 1.0;
+        state[2]
+    };
+    let times = [1.3, 5.0];
+    let few = method()
+        .gradient(&ode, 5, &start(), &times, cost)
+        .expect("a motion");
+    let mut options = Options::with_tolerance(1e-6);
+    options.max_step = Some(5e-4);
+    let many = Dopri5::new(options).gradient(&ode, 5, &start(), &times, cost);
+    let many = many.expect("a motion");
+    assert!(many.steps >= 10_000);
+    let errors = [
+        error(&many.parameters, &few.parameters),
+        error(&many.start, &few.start),
+    ];
+    println!("{errors:?} with {} and {} steps", many.steps, few.steps);
+    assert!(errors[0].max(errors[1]) < 1e-9, "{errors:?}");
+}
+
 /// Derivatives by start and parameters, from central differences of order 6.
 fn differences(cost: &dyn Fn(&[f64; 5], &State<f64>) -> f64) -> (Vec<f64>, Vec<f64>) {
     let difference = |step: f64, at: &dyn Fn(f64) -> f64| {

@@ -7,16 +7,10 @@ use core::marker::PhantomData;
 use super::AdjointMethod;
 use super::reverse::{Reverse, StepAdjoint};
 use crate::integrate::explicit::{EmbeddedPair, ExplicitRungeKutta};
+use crate::integrate::right_hand_side::StepSpan;
 use crate::integrate::{DenseStep, IntegrationError};
 use crate::scalar::Real;
 use crate::system::{PullbackOde, Workspace};
-
-/// A step of the motion: it is made again on the way back.
-pub struct ExplicitStep<T> {
-    time: T,
-    length: T,
-    start: Vec<T>,
-}
 
 /// Memory for the adjoint of one step.
 pub struct ExplicitAdjoint<M, T> {
@@ -46,44 +40,47 @@ impl<M: EmbeddedPair, T: Real> AdjointMethod<T> for ExplicitRungeKutta<M, T> {
     }
 }
 
-impl<M: EmbeddedPair, T: Real> StepAdjoint<T> for ExplicitAdjoint<M, T> {
-    type Taken = ExplicitStep<T>;
-
-    fn keep(&self, step: &DenseStep<'_, T>) -> ExplicitStep<T> {
-        ExplicitStep {
-            time: step.start_time(),
-            length: step.end_time() - step.start_time(),
-            start: step.start().to_vec(),
+impl<M: EmbeddedPair, T: Real> ExplicitAdjoint<M, T> {
+    /// Computes the states and the rates of all stages of a step.
+    fn stages<O: PullbackOde<T> + ?Sized>(&mut self, ode: &O, span: StepSpan<T>, start: &[T]) {
+        let n = start.len();
+        for stage in 0..M::STAGES {
+            let own = &mut self.states[stage * n..(stage + 1) * n];
+            own.copy_from_slice(start);
+            add_rates(own, row::<M>(stage), span.step, &self.rates);
+            let rates = &mut self.rates[stage * n..(stage + 1) * n];
+            ode.rates_with(&mut self.workspace, span.node(M::NODES[stage]), own, rates);
         }
+    }
+}
+
+impl<M: EmbeddedPair, T: Real> StepAdjoint<T> for ExplicitAdjoint<M, T> {
+    const REPEATS: bool = true;
+
+    fn keep(&self, step: &DenseStep<'_, T>) -> Vec<T> {
+        step.start().to_vec()
+    }
+
+    fn end<O: PullbackOde<T> + ?Sized>(&mut self, ode: &O, span: StepSpan<T>, state: &mut [T]) {
+        self.stages(ode, span, state);
+        add_rates(state, row::<M>(M::STAGES), span.step, &self.rates);
     }
 
     fn back<O: PullbackOde<T> + ?Sized>(
         &mut self,
         reverse: &mut Reverse<T>,
         ode: &O,
-        step: &ExplicitStep<T>,
+        span: StepSpan<T>,
+        states: &[T],
     ) -> Result<(), IntegrationError<T>> {
-        let n = step.start.len();
-        let node = |stage: usize| step.time + T::from_f64(M::NODES[stage]) * step.length;
-        for stage in 0..M::STAGES {
-            let own = &mut self.states[stage * n..(stage + 1) * n];
-            own.copy_from_slice(&step.start);
-            for &(other, weight) in row::<M>(stage) {
-                let factor = T::from_f64(weight) * step.length;
-                let rates = &self.rates[(other - 1) * n..other * n];
-                for (value, rate) in own.iter_mut().zip(rates) {
-                    *value += factor * *rate;
-                }
-            }
-            let rates = &mut self.rates[stage * n..(stage + 1) * n];
-            ode.rates_with(&mut self.workspace, node(stage), own, rates);
-        }
+        let n = states.len();
+        self.stages(ode, span, states);
         // The end of the step is y + h Σ b k.
         self.rates.fill(T::ZERO);
         spread(
             &mut self.rates,
             row::<M>(M::STAGES),
-            step.length,
+            span.step,
             &reverse.adjoint,
         );
         for stage in (0..M::STAGES).rev() {
@@ -92,7 +89,7 @@ impl<M: EmbeddedPair, T: Real> StepAdjoint<T> for ExplicitAdjoint<M, T> {
             self.stage_adjoint.fill(T::ZERO);
             ode.add_pullback(
                 &mut reverse.pullback,
-                node(stage),
+                span.node(M::NODES[stage]),
                 &self.states[stage * n..(stage + 1) * n],
                 &self.weights,
                 &mut self.stage_adjoint,
@@ -102,14 +99,14 @@ impl<M: EmbeddedPair, T: Real> StepAdjoint<T> for ExplicitAdjoint<M, T> {
             spread(
                 &mut self.rates,
                 row::<M>(stage),
-                step.length,
+                span.step,
                 &self.stage_adjoint,
             );
             for (adjoint, more) in reverse.adjoint.iter_mut().zip(&self.stage_adjoint) {
                 *adjoint += *more;
             }
         }
-        reverse.check_finite(step.time, &step.start)
+        reverse.check_finite(span.time, states)
     }
 }
 
@@ -119,6 +116,18 @@ fn row<M: EmbeddedPair>(stage: usize) -> &'static [(usize, f64)] {
     match stage {
         0 => &[],
         _ => M::ROWS[stage - 1],
+    }
+}
+
+/// Adds h Σ a k, with the step length h and the rates k, to a state.
+fn add_rates<T: Real>(state: &mut [T], row: &[(usize, f64)], length: T, rates: &[T]) {
+    let n = state.len();
+    for &(stage, weight) in row {
+        let factor = T::from_f64(weight) * length;
+        let rates = &rates[(stage - 1) * n..stage * n];
+        for (value, rate) in state.iter_mut().zip(rates) {
+            *value += factor * *rate;
+        }
     }
 }
 

@@ -11,17 +11,10 @@ use super::AdjointMethod;
 use super::reverse::{Reverse, StepAdjoint, largest};
 use crate::integrate::fixed::Gauss;
 use crate::integrate::piece::{GaussOrder, GaussTable};
+use crate::integrate::right_hand_side::StepSpan;
 use crate::integrate::{DenseStep, IntegrationError, Report};
 use crate::scalar::Real;
 use crate::system::{PullbackOde, State};
-
-/// A step of the motion, with the states of its stages one after the other.
-pub struct GaussStepTaken<T> {
-    time: T,
-    length: T,
-    start: Vec<T>,
-    states: Vec<T>,
-}
 
 /// Memory for the adjoint of one step.
 pub struct GaussAdjoint<T> {
@@ -75,9 +68,10 @@ impl<T: Real> GaussAdjoint<T> {
         &mut self,
         reverse: &mut Reverse<T>,
         ode: &O,
-        step: &GaussStepTaken<T>,
+        span: StepSpan<T>,
+        states: &[T],
     ) {
-        let n = step.start.len();
+        let n = reverse.adjoint.len();
         self.states.fill(T::ZERO);
         let nodes = self.order.table().nodes.iter();
         for (stage, &node) in nodes.enumerate() {
@@ -85,8 +79,8 @@ impl<T: Real> GaussAdjoint<T> {
             let [rates, _] = &self.rates;
             ode.add_pullback(
                 &mut reverse.pullback,
-                step.time + T::from_f64(node) * step.length,
-                &step.states[own.clone()],
+                span.node(node),
+                &states[own.clone()],
                 &rates[own.clone()],
                 &mut self.states[own],
                 &mut self.parameters,
@@ -96,35 +90,39 @@ impl<T: Real> GaussAdjoint<T> {
 }
 
 impl<T: Real> StepAdjoint<T> for GaussAdjoint<T> {
-    type Taken = GaussStepTaken<T>;
+    // The equations of a step would have to be solved again.
+    const REPEATS: bool = false;
 
-    fn keep(&self, step: &DenseStep<'_, T>) -> GaussStepTaken<T> {
+    fn keep(&self, step: &DenseStep<'_, T>) -> Vec<T> {
         let piece = step.piece();
         let (n, nodes) = (piece.start.len(), self.order.table().nodes);
-        let mut states = vec![T::ZERO; nodes.len() * n];
-        for (&node, state) in nodes.iter().zip(states.chunks_exact_mut(n.max(1))) {
+        let mut states = vec![T::ZERO; (1 + nodes.len()) * n];
+        let (start, stages) = states.split_at_mut(n);
+        start.copy_from_slice(piece.start);
+        for (&node, state) in nodes.iter().zip(stages.chunks_exact_mut(n.max(1))) {
             // The polynomial of the step runs through the states of the stages.
             piece.value(T::from_f64(node), state);
         }
-        GaussStepTaken {
-            time: step.start_time(),
-            length: step.end_time() - step.start_time(),
-            start: piece.start.to_vec(),
-            states,
-        }
+        states
+    }
+
+    fn end<O: PullbackOde<T> + ?Sized>(&mut self, _: &O, _: StepSpan<T>, state: &mut [T]) {
+        state.fill(T::NAN);
     }
 
     fn back<O: PullbackOde<T> + ?Sized>(
         &mut self,
         reverse: &mut Reverse<T>,
         ode: &O,
-        step: &GaussStepTaken<T>,
+        span: StepSpan<T>,
+        states: &[T],
     ) -> Result<(), IntegrationError<T>> {
+        let (start, stages) = states.split_at(reverse.adjoint.len());
         let (table, end) = (self.order.table(), reverse.adjoint.clone());
         self.states.fill(T::ZERO);
         let mut before = T::from_f64(f64::INFINITY);
         for iteration in 1.. {
-            self.rates(table, step.length, &end);
+            self.rates(table, span.step, &end);
             let [rates, next] = &mut self.rates;
             let changes = rates
                 .iter()
@@ -138,7 +136,7 @@ impl<T: Real> StepAdjoint<T> for GaussAdjoint<T> {
             rates.copy_from_slice(next);
             self.parameters.clear();
             self.parameters.resize(reverse.parameters.len(), T::ZERO);
-            self.states(reverse, ode, step);
+            self.states(reverse, ode, span, stages);
             // Rounding stops the progress at the end.
             let few = T::from_f64(64.0) * T::EPSILON;
             if iteration > 1 && (change <= T::EPSILON || change < few && change >= before) {
@@ -146,10 +144,10 @@ impl<T: Real> StepAdjoint<T> for GaussAdjoint<T> {
             }
             if iteration > self.iteration_limit || !size.is_finite() {
                 return Err(IntegrationError::NotSolved {
-                    step: step.length,
+                    step: span.step,
                     iterations: iteration,
                     change,
-                    last: State::new(step.time, step.start.clone()),
+                    last: State::new(span.time, start.to_vec()),
                     report: Report::new(),
                 });
             }
@@ -163,6 +161,6 @@ impl<T: Real> StepAdjoint<T> for GaussAdjoint<T> {
                 *adjoint += *more;
             }
         }
-        reverse.check_finite(step.time, &step.start)
+        reverse.check_finite(span.time, start)
     }
 }

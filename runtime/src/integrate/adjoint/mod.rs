@@ -6,6 +6,7 @@
 mod explicit;
 mod gauss;
 mod reverse;
+mod tape;
 
 use alloc::vec;
 use alloc::vec::Vec;
@@ -14,6 +15,7 @@ use core::ops::ControlFlow;
 
 pub use self::reverse::{Reverse, StepAdjoint};
 use self::reverse::{largest, non_finite};
+use self::tape::Tape;
 use super::integrator::Integrator;
 use super::request::{check_start, check_times};
 use super::{Crossing, Event, IntegrationError, StopReason};
@@ -70,8 +72,9 @@ pub trait AdjointMethod<T: Real> {
     ///
     /// Time: of the explicit pairs one run, one repetition, and one pullback for each stage; of
     /// [`Gauss`](super::Gauss) one run, and as many pullbacks as evaluations. The number of
-    /// parameters does not count. Memory: one state for each step (of [`Gauss`](super::Gauss) one
-    /// for each stage too) and for each time.
+    /// parameters does not count. Memory: one state for each time, two numbers for each step, and the
+    /// states of at most 4096 steps; the steps between these are made once more. Of
+    /// [`Gauss`](super::Gauss) all states are kept, with those of the stages.
     ///
     /// # Errors
     ///
@@ -171,21 +174,20 @@ pub trait AdjointMethod<T: Real> {
         reverse.check_parameters(ode, start)?;
         let mut adjoint = self.step_adjoint(start.values.len());
         let Forward {
-            steps,
+            mut tape,
             counts,
             samples,
         } = forward(self, &adjoint, ode, start, times)?;
         let mut slopes = vec![vec![T::ZERO; start.values.len()]; samples.len()];
         let total = cost(&samples, &mut slopes);
         let given = largest(slopes.iter().flatten());
-        let mut left = steps.as_slice();
         for (before, slopes) in counts.iter().zip(&slopes).rev() {
-            back_to(&mut adjoint, &mut reverse, ode, &mut left, *before)?;
+            tape.back_to(*before, &mut adjoint, &mut reverse, ode)?;
             for (adjoint, slope) in reverse.adjoint.iter_mut().zip(slopes) {
                 *adjoint += *slope;
             }
         }
-        back_to(&mut adjoint, &mut reverse, ode, &mut left, 0)?;
+        tape.back_to(0, &mut adjoint, &mut reverse, ode)?;
         let gradient = MotionGradient {
             cost: total,
             start: reverse.adjoint,
@@ -194,7 +196,7 @@ pub trait AdjointMethod<T: Real> {
                 true => reverse.largest / given,
                 false => T::ZERO,
             },
-            steps: steps.len(),
+            steps: tape.steps(),
         };
         let mut all = gradient.start.iter().chain(&gradient.parameters);
         match all.all(|slope| slope.is_finite()) && total.is_finite() {
@@ -259,8 +261,8 @@ pub trait AdjointMethod<T: Real> {
 }
 
 /// A run whose cost is differentiated.
-struct Forward<S, T> {
-    steps: Vec<S>,
+struct Forward<T> {
+    tape: Tape<T>,
     /// Number of steps before each sample.
     counts: Vec<usize>,
     /// States at the samples.
@@ -268,15 +270,15 @@ struct Forward<S, T> {
 }
 
 /// Makes the run whose cost is differentiated, and keeps its steps.
-fn forward<T: Real, O: PullbackOde<T> + ?Sized, A: StepAdjoint<T>>(
+fn forward<T: Real, O: PullbackOde<T> + ?Sized>(
     method: &impl Integrator<T, O>,
-    adjoint: &A,
+    adjoint: &impl StepAdjoint<T>,
     ode: &O,
     start: &State<T>,
     times: &[T],
-) -> Result<Forward<A::Taken, T>, IntegrationError<T>> {
+) -> Result<Forward<T>, IntegrationError<T>> {
     let mut forward = Forward {
-        steps: Vec::new(),
+        tape: Tape::new(),
         counts: Vec::new(),
         samples: Vec::new(),
     };
@@ -284,33 +286,13 @@ fn forward<T: Real, O: PullbackOde<T> + ?Sized, A: StepAdjoint<T>>(
     for &time in times {
         if time != reached.time {
             let solution = method.integrate(ode, &reached, time, |step| {
-                forward.steps.push(adjoint.keep(step));
+                forward.tape.push(adjoint, step);
                 ControlFlow::Continue(())
             })?;
             reached = solution.state;
         }
-        forward.counts.push(forward.steps.len());
+        forward.counts.push(forward.tape.steps());
         forward.samples.push(reached.values.clone());
     }
     Ok(forward)
-}
-
-/// Takes the adjoint back through the steps that are `left`, until only the first `before` of them
-/// are.
-fn back_to<T: Real, O: PullbackOde<T> + ?Sized, A: StepAdjoint<T>>(
-    adjoint: &mut A,
-    reverse: &mut Reverse<T>,
-    ode: &O,
-    left: &mut &[A::Taken],
-    before: usize,
-) -> Result<(), IntegrationError<T>> {
-    while left.len() > before {
-        let Some((last, others)) = left.split_last() else {
-            break;
-        };
-        *left = others;
-        adjoint.back(reverse, ode, last)?;
-        reverse.note_largest();
-    }
-    Ok(())
 }

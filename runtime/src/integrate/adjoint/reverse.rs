@@ -3,25 +3,31 @@
 use alloc::vec;
 use alloc::vec::Vec;
 
+use crate::integrate::right_hand_side::StepSpan;
 use crate::integrate::{DenseStep, InputError, IntegrationError, Report};
 use crate::scalar::Real;
 use crate::system::{PullbackOde, PullbackWorkspace, State};
 
 /// Adjoint of one step of a method, with the memory that it needs.
 pub trait StepAdjoint<T: Real> {
-    /// Record of a step of the motion, kept for the way back.
-    type Taken;
+    /// True if [`end`](Self::end) computes the end of a step again.
+    const REPEATS: bool;
 
-    /// Returns the record of a step.
-    fn keep(&self, step: &DenseStep<'_, T>) -> Self::Taken;
+    /// Returns the states of a step that the way back needs: its start, and for some methods the
+    /// states of its stages.
+    fn keep(&self, step: &DenseStep<'_, T>) -> Vec<T>;
+
+    /// Writes the state at the end of a step in place of that at its start.
+    fn end<O: PullbackOde<T> + ?Sized>(&mut self, ode: &O, span: StepSpan<T>, state: &mut [T]);
 
     /// Takes the adjoint of the state from the end of a step to its start, and adds the derivatives
-    /// by the parameters.
+    /// by the parameters. `states` are those that [`keep`](Self::keep) returned.
     fn back<O: PullbackOde<T> + ?Sized>(
         &mut self,
         reverse: &mut Reverse<T>,
         ode: &O,
-        step: &Self::Taken,
+        span: StepSpan<T>,
+        states: &[T],
     ) -> Result<(), IntegrationError<T>>;
 }
 
