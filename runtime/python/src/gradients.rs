@@ -63,7 +63,7 @@ impl Tree {
     /// >>> slopes.theta.round(4), slopes.torques.round(4)
     /// (array([-14.6415]), array([3.]))
     /// >>> float(slopes.parameters["l"].round(4))
-    /// 1.4691
+    /// 1.469
     #[pyo3(signature = (theta, omega, weights, time = 0.0, torques = None))]
     fn pullback<'py>(
         &self,
@@ -151,7 +151,7 @@ impl Tree {
     /// ...     return y[-1, 0], slopes
     /// >>> found = rod.gradient(angle, [0.1, 0.0], [0.0, 2.0])
     /// >>> round(found.parameters["l"], 6)
-    /// 0.377023
+    /// 0.376767
     #[pyo3(signature = (cost, y0, t, *, parameters = None, method = "auto", rtol = 1e-9, atol = None, step = None, max_steps = 1_000_000))]
     #[allow(clippy::too_many_arguments)]
     fn gradient<'py>(

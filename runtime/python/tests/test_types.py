@@ -55,7 +55,11 @@ def test_types(tmp_path):
     assert lines == set(range(first, first + len(WRONG))), done.stdout
 
 
+# Arrays of packages that need not be installed have no type here.
+OF_OTHERS = {"jax.py", "torch.py"}
+
+
 def test_no_type_is_any():
     for file in Path(bp.__file__).parent.rglob("*.py*"):
-        if file.suffix in (".py", ".pyi"):
+        if file.suffix in (".py", ".pyi") and file.name not in OF_OTHERS:
             assert not re.search(r"\bAny\b", file.read_text()), file

@@ -40,35 +40,35 @@ def motion(
     torch: Any = import_module("torch")
     times = np.asarray(t, float)
 
-    class Motion(torch.autograd.Function):
-        @staticmethod
-        def forward(ctx: Any, names: list[str], y0: Any, *values: Any) -> Any:
-            ctx.tree = tree.changed(**dict(zip(names, map(float, values), strict=True)))
-            ctx.names = names
-            ctx.save_for_backward(y0, *values)
-            start = y0.detach().double().numpy()
-            found = ctx.tree.integrate(start, times, method=method, rtol=rtol)
-            return torch.from_numpy(found.y).to(y0)
+    def forward(ctx: Any, names: list[str], y0: Any, *values: Any) -> Any:
+        ctx.tree = tree.changed(**dict(zip(names, map(float, values), strict=True)))
+        ctx.names = names
+        ctx.save_for_backward(y0, *values)
+        start = y0.detach().double().numpy()
+        found = ctx.tree.integrate(start, times, method=method, rtol=rtol)
+        return torch.from_numpy(found.y).to(y0)
 
-        @staticmethod
-        def backward(ctx: Any, *weights: Any) -> Any:
-            y0, *values = ctx.saved_tensors
-            slopes = ctx.tree.gradient(
-                lambda y: (0.0, weights[0].double().numpy()),
-                y0.detach().double().numpy(),
-                times,
-                parameters=ctx.names,
-                method=method,
-                rtol=rtol,
-            )
-            by = [
-                value.new_tensor(slopes.parameters[name])
-                for name, value in zip(ctx.names, values, strict=True)
-            ]
-            return (None, torch.from_numpy(slopes.y0).to(y0), *by)
+    def backward(ctx: Any, *weights: Any) -> Any:
+        y0, *values = ctx.saved_tensors
+        slopes = ctx.tree.gradient(
+            lambda y: (0.0, weights[0].double().numpy()),
+            y0.detach().double().numpy(),
+            times,
+            parameters=ctx.names,
+            method=method,
+            rtol=rtol,
+        )
+        by = [
+            value.new_tensor(slopes.parameters[name])
+            for name, value in zip(ctx.names, values, strict=True)
+        ]
+        return (None, torch.from_numpy(slopes.y0).to(y0), *by)
+
+    functions = {"forward": staticmethod(forward), "backward": staticmethod(backward)}
+    differentiable: Any = type("Motion", (torch.autograd.Function,), functions)
 
     def states(y0: Any, parameters: Mapping[str, Any]) -> Any:
         values = [torch.as_tensor(value) for value in parameters.values()]
-        return Motion.apply(list(parameters), y0, *values)
+        return differentiable.apply(list(parameters), y0, *values)
 
     return states
