@@ -37,7 +37,7 @@ impl Tree {
     /// Returns the derivatives of a weighted sum of the angular accelerations in reverse mode: a
     /// vector-Jacobian product.
     ///
-    /// All derivatives together take about three evaluations of the accelerations.
+    /// All derivatives together take about five evaluations of the accelerations.
     ///
     /// Parameters
     /// ----------
@@ -115,7 +115,7 @@ impl Tree {
 
     /// Returns the derivatives of a cost of a motion, by its start and by parameters of the tree.
     ///
-    /// They are the derivatives of the numerical solution in reverse mode, and take about four
+    /// They are the derivatives of the numerical solution in reverse mode, and take about six
     /// runs, however many parameters there are. In a chaotic motion they grow as fast as two nearby
     /// motions separate: a warning says if `growth` is so large that they have no meaning.
     ///
