@@ -263,6 +263,6 @@ named! {
     horizons interval intervals into least likelihood max_step max_steps method methods mirrored
     most name noise nonnegative offsets omega order outliers pair parameters path pivot point
     precision recording relative_to remove_mean right rtol sample_limit sample_rate sector
-    seed settling sheet smallest stable starts step step_limit t t0 text theta threads time
+    seed settling sheet smallest stable starts step step_limit t t0 text targets theta threads time
     tolerance torques transverse trend unit unknown until vary weights window within x y y0 y_down zero
 }

@@ -1,5 +1,7 @@
 //! Parameters for given targets: `Tree.design`.
 
+use std::slice;
+
 use branched_pendulum::analysis::normal_form::NormalFormOptions;
 use branched_pendulum::system::{Model, State};
 use branched_pendulum_measure::design::{DesignTarget, DesignVariable, Goal};
@@ -8,26 +10,30 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use crate::arguments::{Entries, named, refused};
+use crate::arguments::{Argument, Entries, named, refused};
 use crate::arrays::{Numbers, matrix, whole};
 use crate::growth::copies;
 use crate::interrupts::on_own_thread;
 use crate::results::result;
 use crate::tree::Tree;
 
-/// Converts a goal: a number, or a pair of which one is None.
-fn goal(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Goal> {
-    if let Ok(value) = value.extract::<f64>() {
-        return Ok(Goal::Equal(value));
-    }
-    match value.extract::<(Option<f64>, Option<f64>)>() {
-        Ok((Some(least), None)) => Ok(Goal::AtLeast(least)),
-        Ok((None, Some(most))) => Ok(Goal::AtMost(most)),
-        _ => Err(refused(
-            &format!("targets[{name:?}]"),
-            "a number, or a limit: (lowest, None) or (None, highest)",
-            value,
-        )),
+/// A goal: a number, or a pair of which one is None.
+struct Wanted(Goal);
+
+impl<'py> Argument<'_, 'py> for Wanted {
+    fn of(name: &str, object: &Bound<'py, PyAny>) -> PyResult<Self> {
+        if let Ok(value) = object.extract::<f64>() {
+            return Ok(Self(Goal::Equal(value)));
+        }
+        match object.extract::<(Option<f64>, Option<f64>)>() {
+            Ok((Some(least), None)) => Ok(Self(Goal::AtLeast(least))),
+            Ok((None, Some(most))) => Ok(Self(Goal::AtMost(most))),
+            Ok((None, None) | (Some(_), Some(_))) | Err(_) => Err(refused(
+                name,
+                "a number, or a limit: (lowest, None) or (None, highest)",
+                object,
+            )),
+        }
     }
 }
 
@@ -75,18 +81,23 @@ impl Tree {
         &self,
         py: Python<'py>,
         #[pyo3(from_py_with = named::vary)] vary: Entries<[f64; 2]>,
-        targets: Bound<'py, PyDict>,
+        #[pyo3(from_py_with = named::targets)] targets: Entries<Wanted>,
         #[pyo3(from_py_with = named::pair)] pair: Option<Vec<String>>,
         #[pyo3(from_py_with = named::y0)] y0: Option<Numbers<'py>>,
         #[pyo3(from_py_with = named::degree)] degree: i128,
         #[pyo3(from_py_with = named::least)] least: f64,
     ) -> PyResult<Bound<'py, PyAny>> {
         let links = self.tree().links();
+        let release = match y0 {
+            Some(y0) => State::new(0.0, y0.row("y0", 2 * links)?),
+            None => State::at_rest(0.0, &vec![0.0; links]),
+        };
         let copies = match pair {
-            Some(pair) => Some(copies(self.system(), &[pair], &[])?),
+            Some(pair) => Some(copies(self.system(), &[pair], slice::from_ref(&release))?),
             None => None,
         };
-        let mut settings = DesignSettings {
+        let settings = DesignSettings {
+            release,
             least,
             form: NormalFormOptions {
                 degree: whole("degree", degree, 4)?,
@@ -94,23 +105,17 @@ impl Tree {
             },
             ..DesignSettings::new(links, copies)
         };
-        if let Some(y0) = y0 {
-            settings.release = State::new(0.0, y0.row("y0", 2 * links)?);
-        }
         let variables = vary.0.into_iter();
         let variables = variables.map(|(name, range)| DesignVariable::new(name, range));
-        let goals = targets.iter().map(|(name, value)| {
-            let name: String = name.extract()?;
-            let goal = goal(&name, &value)?;
-            Ok(DesignTarget::new(name, goal))
-        });
+        let goals = targets.0.into_iter();
+        let goals = goals.map(|(name, Wanted(goal))| DesignTarget::new(name, goal));
         let known = self.parameters();
         let known: Vec<(&str, f64)> = known.iter().map(|(name, own)| (&**name, *own)).collect();
         let design = TreeDesign::new(
             self.tree().description().clone(),
             &known,
             variables.collect(),
-            goals.collect::<PyResult<_>>()?,
+            goals.collect(),
             settings,
         );
         let design = design.map_err(|error| PyValueError::new_err(error.to_string()))?;
@@ -130,9 +135,10 @@ impl Tree {
             Ok(dict)
         };
         let (reached, errors) = (PyDict::new(py), PyDict::new(py));
-        for ((own, value), computed) in search.targets().iter().zip(&found.values).zip(&values) {
+        for (index, (own, value)) in search.targets().iter().zip(&found.values).enumerate() {
             reached.set_item(&own.name, value)?;
-            errors.set_item(&own.name, computed.error)?;
+            let error = values.get(index).and_then(|computed| computed.error);
+            errors.set_item(&own.name, error)?;
         }
         let others: Vec<Bound<'py, PyDict>> = found
             .others

@@ -52,8 +52,16 @@ def test_targets_out_of_reach_name_the_bound():
         ({"com": (0.04, 0.05)}, {"f_x": 1.2}, "no quantity is called `f_x`"),
         ({"com": (0.04, 0.05)}, {"f_d": "1.2"}, r"targets\[\"f_d\"\] must be a number"),
         ({"com": 0.04}, {"f_d": 1.2}, "2 numbers"),
+        ({"com": (0.04, 0.05)}, ["f_d"], "targets must be a dict"),
+        ({"com": (0.04, 0.05)}, {"f_d": (1.1, 1.3)}, "a number, or a limit"),
     ],
 )
 def test_wrong_requests_are_refused(vary, targets, message):
     with pytest.raises((TypeError, ValueError), match=message):
         tree().design(vary, targets, PAIR)
+
+
+def test_a_release_out_of_phase_is_refused():
+    release = [0.5, 0.1, 0.2, 0, 0, 0]
+    with pytest.raises(ValueError, match="copies that start in phase"):
+        tree().design({"com": (0.04, 0.05)}, {"growth": 0.05}, PAIR, y0=release)
