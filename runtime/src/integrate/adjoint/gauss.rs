@@ -22,7 +22,7 @@ pub struct GaussAdjoint<T> {
     iteration_limit: u32,
     /// Adjoints κ of the rates of the stages, and their next values.
     rates: [Vec<T>; 2],
-    /// Adjoints J ᵀ κ of the states of the stages.
+    /// Adjoints Jᵀ κ of the states of the stages.
     states: Vec<T>,
     /// Derivatives by the parameters, which count only at the last iteration.
     parameters: Vec<T>,

@@ -80,7 +80,9 @@ pub trait AdjointMethod<T: Real> {
     ///
     /// [`IntegrationError`] as [`Integrator::integrate`].
     /// [`InputError::Parameters`](super::InputError::Parameters) if the equations have another number
-    /// of parameters; [`IntegrationError::NonFinite`] if a derivative is not finite.
+    /// of parameters; [`IntegrationError::NonFinite`] if a derivative is not finite;
+    /// [`IntegrationError::NotSolved`] if the equations for the adjoints of a step of
+    /// [`Gauss`](super::Gauss) do not converge by fixed-point iteration: take shorter steps.
     ///
     /// # Examples
     ///

@@ -17,7 +17,8 @@ pub trait StepAdjoint<T: Real> {
     /// states of its stages.
     fn keep(&self, step: &DenseStep<'_, T>) -> Vec<T>;
 
-    /// Writes the state at the end of a step in place of that at its start.
+    /// Writes the state at the end of a step in place of that at its start; NaN if the method does
+    /// not [repeat](Self::REPEATS) steps.
     fn end<O: PullbackOde<T> + ?Sized>(&mut self, ode: &O, span: StepSpan<T>, state: &mut [T]);
 
     /// Takes the adjoint of the state from the end of a step to its start, and adds the derivatives

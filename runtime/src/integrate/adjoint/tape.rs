@@ -20,9 +20,9 @@ pub(super) struct Tape<T> {
     stride: usize,
     /// Steps that the way back has not passed.
     left: usize,
-    /// States of the steps behind a kept one, and the index of this one.
+    /// States of the steps from a kept one on, and the index of this one.
     repeated: Vec<Vec<T>>,
-    first: usize,
+    first: Option<usize>,
 }
 
 impl<T: Real> Tape<T> {
@@ -33,7 +33,7 @@ impl<T: Real> Tape<T> {
             stride: 1,
             left: 0,
             repeated: Vec::new(),
-            first: usize::MAX,
+            first: None,
         }
     }
 
@@ -73,7 +73,7 @@ impl<T: Real> Tape<T> {
         while self.left > before {
             self.left -= 1;
             let (kept, behind) = (self.left / self.stride, self.left % self.stride);
-            if self.first != kept {
+            if self.first != Some(kept) {
                 self.repeat(kept, adjoint, ode);
             }
             let states = &self.repeated[behind];
@@ -98,6 +98,6 @@ impl<T: Real> Tape<T> {
             adjoint.end(ode, *span, &mut state);
             states.push(state);
         }
-        (self.repeated, self.first) = (states, kept);
+        (self.repeated, self.first) = (states, Some(kept));
     }
 }
