@@ -15,10 +15,10 @@ pub enum DesignError {
         /// Largest number.
         most: usize,
     },
-    /// A parameter or a target was given twice.
+    /// A parameter was given twice.
     #[error("`{name}` is given twice: give it once")]
     Twice {
-        /// Name of the parameter or the quantity.
+        /// Name of the parameter.
         name: String,
     },
     /// The bounds of a parameter do not ascend, or are not finite.

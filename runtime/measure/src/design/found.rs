@@ -48,8 +48,8 @@ impl Design {
     /// reached.
     pub const TOLERANCE: f64 = 1e-6;
 
-    /// Returns the reason why the targets are not reached, with what to change. `variables` are
-    /// those of the search.
+    /// Returns the reason why the targets are not reached, with what to change; `None` if they are
+    /// reached. `variables` are the ones that the search varied.
     pub fn cause(&self, variables: &[DesignVariable]) -> Option<String> {
         if self.is_reached {
             return None;

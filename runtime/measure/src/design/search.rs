@@ -20,8 +20,8 @@ const STARTS: usize = 4;
 const NEARNESS: f64 = 1e-2;
 /// Distance, in widths of the ranges, below which two solutions count as the same.
 const SAME: f64 = 1e-3;
-/// Singular value, relative to the largest, below which a change of the parameters counts as one
-/// that leaves the quantities as they are.
+/// Singular value, relative to the largest, below which the change of the parameters along its
+/// singular vector counts as no change of the quantities.
 const RANK: f64 = 1e-6;
 /// Gradient relative to the length of the residuals and the largest derivative that counts as zero.
 const FLAT: f64 = 1e-5;

@@ -267,8 +267,8 @@ pub(super) fn numbers_of_spring<T: Scalar>(own: &SpringDamper<T>) -> [T; 6] {
     ]
 }
 
-/// Returns the constants of a line one after the other: those of its arms, of its fixed part, and of
-/// its force.
+/// Returns the constants of a line one after the other: of the arms, of the fixed part, and of the
+/// force.
 pub(super) fn numbers_of_line<T: Copy>(own: &TranslationalSpringDamper<T>) -> Vec<T> {
     let numbers = RefCell::new(Vec::new());
     let _ = own.map(|number| numbers.borrow_mut().push(number));

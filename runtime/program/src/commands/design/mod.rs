@@ -136,7 +136,7 @@ pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
     match text::written(&designed) {
         Some(text) => job.write("tree.txt", text.as_bytes()),
         None => job.print(
-            "The tree is not written as a text of its own, because a name in it means both a \
+            "The tree is not written to `tree.txt`, because a name in it means both a \
              parameter and a link: give the file run.json by `--parameters`, next to `--tree`.\n",
         ),
     }

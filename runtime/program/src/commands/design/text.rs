@@ -21,7 +21,8 @@ pub(super) fn written(subject: &Subject) -> Option<String> {
     is_same(&subject.tree, &read).then_some(text)
 }
 
-/// Compares the accelerations of two trees in one state, in which no two links move alike.
+/// Compares the accelerations of two trees in one state, in which all links have different angles
+/// and velocities.
 fn is_same(one: &PendulumTree, other: &PendulumTree) -> bool {
     let links = one.links();
     let theta: Vec<f64> = (1..=links).map(|link| (link as f64).sin()).collect();
