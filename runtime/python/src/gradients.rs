@@ -9,7 +9,7 @@ use branched_pendulum::system::{Model, State};
 use numpy::IntoPyArray;
 use pyo3::exceptions::{PyKeyError, PyTypeError, PyUserWarning, PyValueError};
 use pyo3::prelude::*;
-use pyo3::types::{PyDict, PyList};
+use pyo3::types::PyDict;
 
 use crate::arguments::{Argument, named, refused};
 use crate::arrays::{Numbers, Together, matrix};
@@ -85,7 +85,8 @@ impl Tree {
         ])?;
         let (motion, names) = (self.tree().pullback(), self.parameter_names());
         let all = together.each(py, &[3 * n + names.len()], |given, out| {
-            let slopes = motion.accelerations(time, [given[0], given[1]], Some(given[3]), given[2]);
+            let (state, torques) = ([given[0], given[1]], Some(given[3]));
+            let slopes = motion.accelerations_pullback(time, state, torques, given[2]);
             let parts = [
                 &slopes.theta,
                 &slopes.omega,
@@ -280,10 +281,7 @@ fn evaluated(
             crate::arguments::value(&returned)
         ))
     };
-    let parts: Vec<Bound<'_, PyAny>> = match returned.cast::<PyList>() {
-        Ok(_) => return Err(wrong()),
-        Err(_) => returned.extract().map_err(|_| wrong())?,
-    };
+    let parts: Vec<Bound<'_, PyAny>> = returned.extract().map_err(|_| wrong())?;
     let [value, derivatives] = &parts[..] else {
         return Err(wrong());
     };

@@ -31,8 +31,9 @@ pub(super) struct VirtualPower<'a, T> {
     accelerations: &'a mut [Vector<T>],
     /// Derivatives of the virtual power by U: the forces of inertia of all that the pivot carries.
     forces: &'a mut [Vector<T>],
-    /// Derivatives of the virtual power by A.
-    moments: &'a mut [Vector<T>],
+    /// Derivatives of the virtual power by A: the opposite of the virtual momentum of all that the
+    /// pivot carries.
+    momenta: &'a mut [Vector<T>],
     /// Sums of the derivatives by angles, angular velocities and parameters.
     pub(super) by: [&'a mut [T]; 3],
 }
@@ -53,7 +54,7 @@ impl<'a, T: Scalar> VirtualPower<'a, T> {
         let (axes, vectors) = vectors.split_at_mut(links);
         let (velocities, vectors) = vectors.split_at_mut(links);
         let (accelerations, vectors) = vectors.split_at_mut(links);
-        let (forces, moments) = vectors.split_at_mut(links);
+        let (forces, momenta) = vectors.split_at_mut(links);
         for (axis, angle) in axes.iter_mut().zip(motion.theta) {
             *axis = direction(*angle);
         }
@@ -65,7 +66,7 @@ impl<'a, T: Scalar> VirtualPower<'a, T> {
             velocities,
             accelerations,
             forces,
-            moments,
+            momenta,
             by,
         }
     }
@@ -86,11 +87,11 @@ impl<'a, T: Scalar> VirtualPower<'a, T> {
             self.accelerations[index] = acceleration;
         }
         self.forces.fill([zero; 2]);
-        self.moments.fill([zero; 2]);
+        self.momenta.fill([zero; 2]);
         for (index, link) in self.constants.links.iter().enumerate().rev() {
             self.add_link(index, link);
         }
-        let pivot = self.moments.first().copied().unwrap_or([zero; 2]);
+        let pivot = self.momenta.first().copied().unwrap_or([zero; 2]);
         let [_, _, parameters] = &mut self.by;
         self.slopes.gravity.add(&[pivot[1]], parameters);
         pivot
@@ -122,7 +123,7 @@ impl<'a, T: Scalar> VirtualPower<'a, T> {
         link: usize,
         point: [T; 2],
         force: Vector<T>,
-        moment: Vector<T>,
+        momentum: Vector<T>,
     ) -> [T; 2] {
         let Motion {
             omega,
@@ -132,18 +133,18 @@ impl<'a, T: Scalar> VirtualPower<'a, T> {
         } = self.motion;
         let (omega, axis) = (omega[link], self.axes[link]);
         // The power depends on the arm e as e·g; the transpose of J is −J.
-        let turning = sum(scaled(lambda[link], force), scaled(alpha[link], moment));
+        let turning = sum(scaled(lambda[link], force), scaled(alpha[link], momentum));
         let g = sum(
-            scaled(-(omega * omega), moment),
+            scaled(-(omega * omega), momentum),
             scaled(T::from_f64(-1.0), turned(turning)),
         );
         let (by_angle, by_point) = arm_slopes(point, axis, g);
         let [by_theta, by_omega, _] = &mut self.by;
         by_theta[link] = by_theta[link] + by_angle;
         let twice = omega + omega;
-        by_omega[link] = by_omega[link] - twice * dot(arm(point, axis), moment);
+        by_omega[link] = by_omega[link] - twice * dot(arm(point, axis), momentum);
         self.forces[link] = sum(self.forces[link], force);
-        self.moments[link] = sum(self.moments[link], moment);
+        self.momenta[link] = sum(self.momenta[link], momentum);
         by_point
     }
 
@@ -152,13 +153,13 @@ impl<'a, T: Scalar> VirtualPower<'a, T> {
         let own = &link.numbers;
         let Motion { alpha, lambda, .. } = self.motion;
         let (velocity, acceleration) = self.at(index, own.com);
-        let (force, moment) = (scaled(-own.mass, acceleration), scaled(-own.mass, velocity));
+        let (force, momentum) = (scaled(-own.mass, acceleration), scaled(-own.mass, velocity));
         let mut by = own.map(|_| T::from_f64(0.0));
         by.mass = -dot(acceleration, velocity);
         by.inertia = -(alpha[index] * lambda[index]);
-        by.com = self.add_point(index, own.com, force, moment);
+        by.com = self.add_point(index, own.com, force, momentum);
         if let Some(parent) = own.parent {
-            by.pivot = self.add_point(parent, own.pivot, self.forces[index], self.moments[index]);
+            by.pivot = self.add_point(parent, own.pivot, self.forces[index], self.momenta[index]);
         }
         let joint = self.add_spring(&link.joint, [Some(index), own.parent]);
         let ground = self.add_spring(&link.ground, [Some(index), None]);

@@ -26,9 +26,9 @@ use links::{Motion, VirtualPower};
 /// Equations of motion of a tree in the links' angles, with derivatives in reverse mode by the
 /// state and by all parameters of the description.
 ///
-/// The state is the angles (rad), followed by the angular velocities (rad/s). The parameters are
-/// those of [`TreeDescription::parameters`](crate::TreeDescription::parameters), in this order and
-/// in SI units. One pullback takes O(links) time, and time for each constant that depends on a
+/// The state is the angles (rad), followed by the angular velocities (rad/s). The order of the
+/// parameters is that of [`TreeDescription::parameters`](crate::TreeDescription::parameters); they
+/// are in SI units. One pullback takes O(links) time, and time for each constant that depends on a
 /// parameter.
 ///
 /// # Examples
@@ -68,7 +68,8 @@ pub struct TreePullback<T = f64> {
     drives: Vec<(usize, Courses<Dual<T, 1>>)>,
 }
 
-/// Derivatives of a weighted sum of accelerations, as [`TreePullback::accelerations`] returns them.
+/// Derivatives of a weighted sum of accelerations, as [`TreePullback::accelerations_pullback`] returns
+/// them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AccelerationSlopes<T> {
     /// By the angles.
@@ -112,7 +113,7 @@ impl<T: Scalar> TreePullback<T> {
     /// they are given. `time` (s) only matters if the tree has a drive. NaN if a slice does not have
     /// one value per link.
     #[must_use]
-    pub fn accelerations(
+    pub fn accelerations_pullback(
         &self,
         time: T,
         [theta, omega]: [&[T]; 2],

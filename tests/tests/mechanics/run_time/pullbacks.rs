@@ -118,7 +118,7 @@ fn derivatives_by_torques_are_those_of_the_accelerations() {
     let ([theta, omega], torques) = ([[0.3, -0.5, 0.9], [1.0, 2.0, -1.0]], [0.01, -0.02, 0.03]);
     let weights = [0.7, -0.2, 0.4];
     let motion = tree.pullback();
-    let slopes = motion.accelerations(0.0, [&theta, &omega], Some(&torques), &weights);
+    let slopes = motion.accelerations_pullback(0.0, [&theta, &omega], Some(&torques), &weights);
     let sum = |torques: &[f64; 3], theta: &[f64; 3]| -> f64 {
         let mut alpha = [0.0; 3];
         tree.accelerations_under_into(0.0, theta, &omega, torques, &mut alpha);
@@ -139,6 +139,6 @@ fn derivatives_by_torques_are_those_of_the_accelerations() {
         let difference = (sum(&torques, &more) - sum(&torques, &less)) / 2e-5;
         assert!((slopes.theta[link] - difference).abs() < 1e-6 * difference.abs().max(1.0));
     }
-    let wrong = motion.accelerations(0.0, [&theta, &omega[..2]], None, &weights);
+    let wrong = motion.accelerations_pullback(0.0, [&theta, &omega[..2]], None, &weights);
     assert!(wrong.theta.iter().all(|slope| slope.is_nan()));
 }
