@@ -3,6 +3,8 @@
 //! [`FrictionLaw`] is the only implementation of these laws at run time; it is used for friction
 //! between links, Taylor series and energy transfers.
 
+use core::fmt::{self, Display, Formatter};
+
 use crate::scalar::Scalar;
 
 /// Law of non-viscous friction: the torque (C/s + q s) w against the rate w, with the smoothed
@@ -40,18 +42,46 @@ impl<T> FrictionLaw<T> {
         }
     }
 
-    /// Converts the constants with `convert`.
+    /// Returns the constants in the order of [`of_constants`](Self::of_constants).
+    pub fn into_constants(self) -> [T; 3] {
+        [self.coulomb, self.quadratic, self.width]
+    }
+
+    /// Converts the constants with `convert`, in their order.
     #[must_use]
-    pub fn map<S>(self, convert: impl Fn(T) -> S) -> FrictionLaw<S> {
+    pub fn map<S>(self, convert: impl FnMut(T) -> S) -> FrictionLaw<S> {
+        let [coulomb, quadratic, width] = self.into_constants().map(convert);
         FrictionLaw {
-            coulomb: convert(self.coulomb),
-            quadratic: convert(self.quadratic),
-            width: convert(self.width),
+            coulomb,
+            quadratic,
+            width,
         }
     }
 }
 
+impl<T: Display> Display for FrictionLaw<T> {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let Self {
+            coulomb,
+            quadratic,
+            width,
+        } = self;
+        write!(
+            f,
+            "Coulomb friction {coulomb} N m, quadratic friction {quadratic} N m s², width {width} \
+             rad/s"
+        )
+    }
+}
+
 impl<T: Scalar> FrictionLaw<T> {
+    /// Returns the law of a contact without friction. Its width is 1 rad/s.
+    #[must_use]
+    pub fn none() -> Self {
+        let [zero, one] = [0.0, 1.0].map(T::from_f64);
+        Self::of_constants([zero, zero, one])
+    }
+
     /// Returns the law with all torques multiplied by `factor`.
     #[must_use]
     pub fn times(self, factor: T) -> Self {

@@ -9,7 +9,7 @@ use super::frame::DerivedFrame;
 use super::letters;
 use super::meaning::{DerivedSource, DerivedTorque};
 use super::print::Index;
-use crate::scene::{Coordinate, FrictionContact, FrictionLaw, LinkId, PassiveTorques};
+use crate::scene::{Coordinate, FrictionContact, FrictionLaw, LinkId, PassiveTorques, Quantity};
 
 /// A friction torque D = (C/s + q s) w against the rate w, in a joint or against the ground:
 /// Coulomb friction C, quadratic friction q, speed s = √(w² + ε²).
@@ -126,45 +126,39 @@ impl Derivation<'_> {
         }
     }
 
-    /// Names the constants C, q and ε of a force element, and returns them.
+    /// Names the constants of a force element's friction law, and returns them.
     pub(super) fn name_law(
         &mut self,
         element: &ElementWords,
         place: FrictionContact,
         law: &FrictionLaw,
-    ) -> [Formula; 3] {
+    ) -> FrictionLaw<Formula> {
         let index = Index::of(&element.constants);
         let (mark, latex_mark) = (place.mark(), place.latex_mark());
-        let (words, what) = match place {
-            FrictionContact::Joint => (
-                ["coulomb", "quadratic_friction", "friction_width"],
-                format!("friction {}", element.place),
-            ),
-            FrictionContact::Ground => (
-                ["coulomb_drag", "quadratic_drag", "drag_width"],
-                format!("drag {} against the ground", element.owner),
-            ),
+        let what = match place {
+            FrictionContact::Joint => format!("friction {}", element.place),
+            FrictionContact::Ground => format!("drag {} against the ground", element.owner),
         };
-        let letters = [
-            ("C", "C", "Coulomb ", "N m", &law.coulomb),
-            ("q", "q", "quadratic ", "N m s²", &law.quadratic),
-            ("ε", "\\varepsilon", "width of ", "rad/s", &law.width),
-        ];
-        let mut named = [const { None }; 3];
-        for ((word, place), (letter, latex, kind, unit, value)) in
-            words.into_iter().zip(&mut named).zip(letters)
-        {
+        let mut values = law
+            .effective(Quantity::is_zero)
+            .into_constants()
+            .into_iter();
+        FrictionLaw::NAMES.map(|constant| {
+            let (Some(Some(value)), Some(word)) = (values.next(), constant.words[place as usize])
+            else {
+                return Formula::zero();
+            };
             let value = self.quantity(value);
-            *place = Some(self.constant(
+            let [letter, latex] = constant.letters;
+            self.constant(
                 &format!("{word}_{}", index.code),
                 &format!("{letter}{mark}_{}", index.text),
                 &format!("{latex}{latex_mark}_{{\\mathrm{{{}}}}}", index.latex),
-                &format!("{kind}{what}"),
-                unit,
+                &format!("{}{what}", constant.meaning),
+                constant.unit,
                 value,
-            ));
-        }
-        named.map(|constant| constant.unwrap_or_else(Formula::zero))
+            )
+        })
     }
 
     /// Returns the passive torques of an orbit (equal copies of a link) or of a spring-damper, as
@@ -181,12 +175,10 @@ impl Derivation<'_> {
     }
 
     fn law_constants(&self, index: &str, place: FrictionContact) -> FrictionLaw<Expr> {
-        let named = |letter| self.named_constant(&format!("{letter}{}", place.mark()), index);
-        FrictionLaw {
-            coulomb: named("C"),
-            quadratic: named("q"),
-            width: named("ε"),
-        }
+        FrictionLaw::NAMES.map(|constant| {
+            let [letter, _] = constant.letters;
+            self.named_constant(&format!("{letter}{}", place.mark()), index)
+        })
     }
 
     fn named_constant(&self, letter: &str, index: &str) -> Expr {

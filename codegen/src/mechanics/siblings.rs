@@ -16,7 +16,7 @@ use super::frame::DerivedFrame;
 use super::laws::{dissipated, stored};
 use super::letters;
 use super::meaning::JointDifference;
-use crate::scene::{FrictionContact, LinkId, PassiveTorques};
+use crate::scene::{FrictionContact, FrictionLaw, LinkId, PassiveTorques};
 
 impl Derivation<'_> {
     /// Returns the frame with the springs and friction between copies in phase. Adds the symbols of
@@ -108,7 +108,11 @@ impl Derivation<'_> {
         }
         let law = passive.law(FrictionContact::Joint);
         if !law.is_none() {
-            let [coulomb, quadratic, width] = self.name_law(words, FrictionContact::Joint, law);
+            let FrictionLaw {
+                coulomb,
+                quadratic,
+                width,
+            } = self.name_law(words, FrictionContact::Joint, law);
             slope = &slope + &(&(&coulomb / &width) + &(&quadratic * &width));
         }
         slope

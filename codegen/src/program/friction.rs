@@ -28,7 +28,7 @@ impl Builder {
     /// Computes the torque (C/s + q s) w, zero without a law; `suffix` is appended to the names of
     /// its values.
     pub(super) fn braking_torque(&mut self, law: &Law, rate: ValueId, suffix: &str) -> ValueId {
-        let is_none = [law.coulomb, law.quadratic].map(|constant| self.is(constant, 0));
+        let is_none = law.strengths().map(|constant| self.is(*constant, 0));
         if is_none == [true; 2] {
             return self.integer(0);
         }

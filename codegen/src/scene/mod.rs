@@ -22,6 +22,7 @@ mod chords;
 pub mod coordinates;
 mod drive;
 mod expand;
+mod friction_law;
 mod gradient;
 mod layout;
 mod line_potential;
@@ -66,6 +67,7 @@ mod written_forms;
 pub use chords::DescribedChordSpring;
 pub use coordinates::{Coordinate, CoordinateKind};
 pub use drive::{Drive, Signal, SignalAtom, TimeFunction};
+pub use friction_law::{FrictionContact, FrictionLaw, LAW_CONSTANTS, LawConstant};
 pub use layout::Layout;
 pub use line_potential::{DescribedLinePotential, LARGEST_EXPONENT, strength_unit};
 pub use lineage::Lineage;
@@ -76,7 +78,7 @@ pub use observed::{
     CoordinateIndex, Function, Observable, Observed, ObservedAtom, Variable, VariableKind,
 };
 pub use outputs::{BudgetRequest, GradientRequest, Requests, Solve, TransferRequest};
-pub use passive::{FrictionContact, FrictionLaw, PassiveTorques};
+pub use passive::PassiveTorques;
 pub use quantity::{Quantity, QuantityAtom};
 pub use rational_expression::RationalExpression;
 pub use resolve::resolve;

@@ -2,8 +2,8 @@
 
 use super::Quantity;
 use super::bodies::{Dimension, GivenProperties};
+use super::friction_law::{FrictionContact, FrictionLaw};
 use crate::description::Property;
-use crate::exact::Rational;
 use crate::report::{Faults, SyntaxMessage, TreeMessage, nearest};
 
 /// Friction, drag and spring of a link; absent ones are zero. `V` is the type of the constants,
@@ -25,44 +25,6 @@ pub struct PassiveTorques<V = Quantity> {
     pub laws: [FrictionLaw<V>; 2],
 }
 
-/// Law of the friction torque at the angular velocity w: −(C/s + q s) w with the speed s = √(w² +
-/// ε²). If |w| is large compared with the width ε, this is Coulomb's −C sign w plus −q w |w|; near
-/// w = 0 it is smooth.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub struct FrictionLaw<V = Quantity> {
-    /// Coulomb friction C, in N m.
-    pub coulomb: V,
-    /// Quadratic friction q, in N m s².
-    pub quadratic: V,
-    /// Smoothing width ε, in rad/s.
-    pub width: V,
-}
-
-/// Contact at which friction acts on a link.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum FrictionContact {
-    /// The link's pivot; acts on the angular velocity relative to the parent.
-    Joint,
-    /// The ground; acts on the link's own angular velocity.
-    Ground,
-}
-
-impl FrictionContact {
-    /// Both contacts, in the order of [`PassiveTorques::laws`].
-    pub const ALL: [Self; 2] = [Self::Joint, Self::Ground];
-}
-
-impl<V> FrictionLaw<V> {
-    /// Returns the law with `formed` applied to every constant.
-    pub fn map<W>(&self, mut formed: impl FnMut(&V) -> W) -> FrictionLaw<W> {
-        FrictionLaw {
-            coulomb: formed(&self.coulomb),
-            quadratic: formed(&self.quadratic),
-            width: formed(&self.width),
-        }
-    }
-}
-
 impl<V> PassiveTorques<V> {
     /// Returns the torques with `formed` applied to every constant.
     pub fn map<W>(&self, mut formed: impl FnMut(&V) -> W) -> PassiveTorques<W> {
@@ -81,40 +43,6 @@ impl<V> PassiveTorques<V> {
     }
 }
 
-impl FrictionLaw {
-    /// Reads the law `force(...)` of a link. Without a law the width is 1, because it is a divisor.
-    fn of(given: &GivenProperties, force: &str) -> Self {
-        let member = |name: &str| format!("{force}({name})");
-        let mut law = Self {
-            coulomb: given.get(&member("coulomb")),
-            quadratic: given.get(&member("quadratic")),
-            width: Quantity::integer(1),
-        };
-        if !law.is_none() {
-            let width = given.value(&member("width")).cloned();
-            law.width = width.unwrap_or_else(default_width);
-        }
-        law
-    }
-
-    /// Returns true if the law has neither Coulomb nor quadratic friction.
-    pub fn is_none(&self) -> bool {
-        self.coulomb.is_zero() && self.quadratic.is_zero()
-    }
-
-    /// Multiplies the constants of the law by the number of links that move as one.
-    fn times(&mut self, count: usize) {
-        for value in [&mut self.coulomb, &mut self.quadratic] {
-            *value = value.times(count);
-        }
-    }
-}
-
-/// Returns the default smoothing width, 0.01 rad/s.
-fn default_width() -> Quantity {
-    Rational::from_ratio(1, 100).map_or_else(Quantity::zero, Quantity::number)
-}
-
 impl PassiveTorques {
     /// Reads the passive torques from a link's properties.
     pub(super) fn of(given: &GivenProperties) -> Self {
@@ -128,7 +56,7 @@ impl PassiveTorques {
             drag: given.get("drag"),
             spring,
             rest,
-            laws: ["friction", "drag"].map(|force| FrictionLaw::of(given, force)),
+            laws: FrictionContact::ALL.map(|place| FrictionLaw::of(given, place)),
         }
     }
 
@@ -140,11 +68,7 @@ impl PassiveTorques {
             rest: self.rest.clone(),
             friction: Quantity::zero(),
             drag: Quantity::zero(),
-            laws: FrictionContact::ALL.map(|_| FrictionLaw {
-                coulomb: Quantity::zero(),
-                quadratic: Quantity::zero(),
-                width: Quantity::integer(1),
-            }),
+            laws: FrictionContact::ALL.map(|_| FrictionLaw::none()),
         }
     }
 
@@ -188,9 +112,9 @@ impl PassiveTorques {
             *own = law;
             return true;
         }
-        own.coulomb = Quantity::sum([own.coulomb.clone(), law.coulomb.clone()]);
-        own.quadratic = Quantity::sum([own.quadratic.clone(), law.quadratic.clone()]);
-        law.is_none() || own.width == law.width
+        let is_alike = law.is_none() || own.shape() == law.shape();
+        *own = own.combined(&law, |a, b| Quantity::sum([a.clone(), b.clone()]));
+        is_alike
     }
 }
 

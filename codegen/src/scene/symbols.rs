@@ -7,7 +7,7 @@ use super::observed::{CoordinateIndex, ObservedAtom, Variable, VariableKind};
 use crate::report::{Faults, OutputMessage};
 use proc_macro2::Span;
 
-use super::{FrictionContact, LinkId, ParameterId, PassiveTorques, Quantity, Scene};
+use super::{FrictionContact, FrictionLaw, LinkId, ParameterId, PassiveTorques, Quantity, Scene};
 
 /// Meaning of a name in an observable.
 pub(super) enum Meaning {
@@ -206,23 +206,32 @@ fn add_constants<'a>(
         names.push(format!("{word}_{own}"));
     }
     type Present = fn(&PassiveTorques) -> bool;
-    let torques: [(&[&str], Present); 6] = [
-        (&["friction"], |own| !own.friction.is_zero()),
-        (&["drag"], |own| !own.drag.is_zero()),
-        (&["spring"], |own| !own.spring.is_zero()),
-        (&["rest"], |own| !own.rest.is_zero()),
-        (
-            &["coulomb", "quadratic_friction", "friction_width"],
-            |own| !own.law(FrictionContact::Joint).is_none(),
-        ),
-        (&["quadratic_drag", "drag_width"], |own| {
-            !own.law(FrictionContact::Ground).is_none()
-        }),
+    let torques: [(&str, Present); 4] = [
+        ("friction", |own| !own.friction.is_zero()),
+        ("drag", |own| !own.drag.is_zero()),
+        ("spring", |own| !own.spring.is_zero()),
+        ("rest", |own| !own.rest.is_zero()),
     ];
-    for (words, is_present) in torques {
-        let mut passive = links.iter().map(|link| &scene.links[link.0].passive);
-        if passive.any(is_present) {
-            names.extend(words.iter().map(|word| format!("{word}_{own}")));
+    let passive = || links.iter().map(|link| &scene.links[link.0].passive);
+    for (word, is_present) in torques {
+        if passive().any(is_present) {
+            names.push(format!("{word}_{own}"));
+        }
+    }
+    for place in FrictionContact::ALL {
+        let laws = passive().map(|own| own.law(place));
+        let laws: Vec<_> = laws.filter(|law| !law.is_none()).collect();
+        let constants = FrictionLaw::NAMES.into_constants().into_iter();
+        for (index, constant) in constants.enumerate() {
+            let is_effective = |law: &&FrictionLaw| {
+                law.effective(Quantity::is_zero).into_constants()[index].is_some()
+            };
+            if let (Some(word), true) = (
+                constant.words[place as usize],
+                laws.iter().any(is_effective),
+            ) {
+                names.push(format!("{word}_{own}"));
+            }
         }
     }
     let mut above = links.first().and_then(|first| scene.links[first.0].parent);

@@ -4,10 +4,10 @@
 use std::fmt::{self, Display, Formatter};
 
 use super::{
-    BudgetRequest, DescribedTranslationalSpringDamper, Drive, GradientRequest, Group, Layout,
-    LineEnds, Lineage, Link, NodeMotion, Observable, Offset, Orbit, Parameter, PassiveTorques,
-    Quantity, Reduction, Requests, Requirement, Scene, Sign, TransferRequest, WholeNode,
-    WholeOrder,
+    BudgetRequest, DescribedTranslationalSpringDamper, Drive, FrictionContact, FrictionLaw,
+    GradientRequest, Group, LawConstant, Layout, LineEnds, Lineage, Link, NodeMotion, Observable,
+    Offset, Orbit, Parameter, PassiveTorques, Quantity, Reduction, Requests, Requirement, Scene,
+    Sign, TransferRequest, WholeNode, WholeOrder,
 };
 
 impl Display for Scene {
@@ -232,14 +232,22 @@ impl Scene {
         for (name, force, unit) in forces.into_iter().filter(|(_, force, _)| !force.is_zero()) {
             writeln!(f, "    {name} {} {unit}", force.display(&self.parameters))?;
         }
-        let laws = ["friction", "drag"].into_iter().zip(&passive.laws);
-        for (name, law) in laws.filter(|(_, law)| !law.is_none()) {
-            let [coulomb, quadratic, width] = [&law.coulomb, &law.quadratic, &law.width]
-                .map(|value| value.display(&self.parameters));
-            writeln!(
-                f,
-                "    {name} Coulomb {coulomb} N m, quadratic {quadratic} N m s², width {width} rad/s"
-            )?;
+        for place in FrictionContact::ALL {
+            let law = passive.law(place);
+            if law.is_none() {
+                continue;
+            }
+            let constants = FrictionLaw::NAMES.into_constants().into_iter();
+            let values = law.effective(Quantity::is_zero).into_constants();
+            let given = constants.zip(values).filter_map(|(constant, value)| {
+                let LawConstant { member, unit, .. } = constant;
+                Some(format!(
+                    "{member} {} {unit}",
+                    value?.display(&self.parameters)
+                ))
+            });
+            let given: Vec<String> = given.collect();
+            writeln!(f, "    {} {}", place.property(), given.join(", "))?;
         }
         Ok(())
     }

@@ -79,7 +79,7 @@ use crate::spring_dampers::SpringDampers;
 ///     rest: 0.0,
 ///     friction: 0.0,
 ///     drag: 0.0,
-///     laws: [FrictionLaw::of_constants([0.0, 0.0, 1.0]); 2],
+///     laws: [FrictionLaw::none(); 2],
 /// };
 /// let child = link(Some(0), 0.10531, 0.043, 0.516e-3, 0.27);
 /// let links = [link(None, 0.12880, 0.084, 1.88e-3, 0.0), child, child];

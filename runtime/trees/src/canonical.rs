@@ -2,7 +2,7 @@
 
 use branched_pendulum::scalar::{Dual, Scalar};
 use branched_pendulum::system::{Canonical, LinkProperties, Model, Pendulum, Workspace};
-use branched_pendulum_codegen::scene::{FrictionLaw, PassiveTorques};
+use branched_pendulum_codegen::scene::{FrictionLaw, LAW_CONSTANTS, PassiveTorques};
 
 use crate::between::Between;
 use crate::equations::Form;
@@ -16,11 +16,7 @@ impl<T: Scalar> PendulumTree<T> {
     /// these, torques p cause the accelerations M⁻¹ p.
     pub(crate) fn inertia_alone(&self) -> Equations<T> {
         let zero = T::from_f64(0.0);
-        let none = FrictionLaw {
-            coulomb: zero,
-            quadratic: zero,
-            width: zero,
-        };
+        let none = FrictionLaw::of_constants([zero; LAW_CONSTANTS]);
         let properties = (0..self.links()).map_while(|link| self.properties.of(link));
         let links = properties.map(|own: LinkProperties<T>| LinkNumbers {
             parent: own.parent,

@@ -304,11 +304,7 @@ pub(crate) fn spring_dampers<S: Scalar>(
 
 /// Converts a friction law of a scene to the type used at run time.
 pub(crate) fn law<S: Scalar>(law: scene::FrictionLaw<S>) -> FrictionLaw<S> {
-    FrictionLaw {
-        coulomb: law.coulomb,
-        quadratic: law.quadratic,
-        width: law.width,
-    }
+    FrictionLaw::of_constants(law.into_constants())
 }
 
 fn numbers<S: Scalar>(link: &Link, parameters: &[S]) -> LinkNumbers<S> {
@@ -325,7 +321,7 @@ fn numbers<S: Scalar>(link: &Link, parameters: &[S]) -> LinkNumbers<S> {
     }
 }
 
-fn named(link: &LinkNumbers) -> [(&'static str, f64); 17] {
+fn named(link: &LinkNumbers) -> impl Iterator<Item = (String, f64)> {
     let LinkNumbers {
         parent: _,
         mass,
@@ -335,8 +331,7 @@ fn named(link: &LinkNumbers) -> [(&'static str, f64); 17] {
         end,
         passive,
     } = link;
-    let [joint, ground] = &passive.laws;
-    [
+    let own = [
         ("mass", mass),
         ("inertia", inertia),
         ("centre of mass", &com[0]),
@@ -349,13 +344,15 @@ fn named(link: &LinkNumbers) -> [(&'static str, f64); 17] {
         ("drag", &passive.drag),
         ("spring", &passive.spring),
         ("rest", &passive.rest),
-        ("Coulomb friction", &joint.coulomb),
-        ("quadratic friction", &joint.quadratic),
-        ("width of friction", &joint.width),
-        ("quadratic drag", &ground.quadratic),
-        ("width of drag", &ground.width),
-    ]
-    .map(|(name, value)| (name, value.high()))
+    ];
+    let own = own.map(|(name, value)| (name.to_owned(), value.high()));
+    let laws = FrictionContact::ALL.into_iter().flat_map(|place| {
+        let constants = scene::FrictionLaw::NAMES.into_constants().into_iter();
+        let values = passive.law(place).each_ref().into_constants();
+        let own = constants.zip(values);
+        own.map(move |(constant, value)| (constant.in_words(place), value.high()))
+    });
+    own.into_iter().chain(laws)
 }
 
 fn body(link: &LinkNumbers) -> LinkBody {

@@ -8,7 +8,8 @@ use branched_pendulum::system::Workspace;
 use branched_pendulum::transfer::{NonConservative, StateInput, SymmetricTree};
 use branched_pendulum::translational::TranslationalSpringDampers;
 use branched_pendulum_codegen::scene::{
-    CoordinateIndex, Function, LinkId, Observed, ObservedAtom, Scene, Variable, VariableKind,
+    CoordinateIndex, FrictionContact, FrictionLaw, Function, LinkId, Observed, ObservedAtom, Scene,
+    Variable, VariableKind,
 };
 
 use crate::error::TreeError;
@@ -289,19 +290,22 @@ fn constants(
         add("gravity", gravity);
         add("lateral_gravity", lateral);
         if let Some(passive) = links.get(first).map(|link| link.passive) {
-            let [joint, ground] = &passive.laws;
             for (word, value) in [
                 ("friction", &passive.friction),
                 ("drag", &passive.drag),
                 ("spring", &passive.spring),
                 ("rest", &passive.rest),
-                ("coulomb", &joint.coulomb),
-                ("quadratic_friction", &joint.quadratic),
-                ("friction_width", &joint.width),
-                ("quadratic_drag", &ground.quadratic),
-                ("drag_width", &ground.width),
             ] {
                 add(word, value.high());
+            }
+            for place in FrictionContact::ALL {
+                let names = FrictionLaw::NAMES.into_constants().into_iter();
+                let values = passive.law(place).into_constants();
+                for (constant, value) in names.zip(values) {
+                    if let Some(word) = constant.words[place as usize] {
+                        add(word, value.high());
+                    }
+                }
             }
         }
         let above = |link: usize| scene.links.get(link)?.parent.map(|LinkId(parent)| parent);

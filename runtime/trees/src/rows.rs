@@ -47,9 +47,8 @@ impl Form {
 /// Returns true if some friction is not viscous.
 pub(crate) fn have_non_viscous_friction(links: &[LinkNumbers]) -> bool {
     let zero = Double::from_f64(0.0);
-    let laws = links.iter().flat_map(|link| &link.passive.laws);
-    laws.into_iter()
-        .any(|law| law.coulomb != zero || law.quadratic != zero)
+    let mut laws = links.iter().flat_map(|link| &link.passive.laws);
+    laws.any(|law| law.strengths().into_iter().any(|own| *own != zero))
 }
 
 fn are_plain(links: &[LinkNumbers]) -> bool {

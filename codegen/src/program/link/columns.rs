@@ -1,6 +1,7 @@
 //! Columns of constants that the functions of a link read; each link has a row.
 
 use crate::named_members::named_members;
+use crate::scene::{FrictionContact, FrictionLaw};
 
 named_members! {
     /// A constant in the equations of one link, in reduced units. m and l are the mass and length
@@ -70,19 +71,27 @@ impl TorqueUnit {
         }
     }
 
-    /// Returns the columns of Coulomb friction, quadratic friction and quadratic drag.
-    pub(super) fn laws(self) -> [Column; 3] {
-        match self {
-            Self::Reduced => [
-                Column::Coulomb,
-                Column::QuadraticFriction,
-                Column::QuadraticDrag,
-            ],
-            Self::NewtonMetre => [
-                Column::PivotCoulomb,
-                Column::PivotQuadratic,
-                Column::GroundQuadratic,
-            ],
+    /// Returns the columns of the friction law at a contact; `None` for constants that the law
+    /// does not have there.
+    pub(super) fn law(self, place: FrictionContact) -> FrictionLaw<Option<Column>> {
+        let (coulomb, quadratic) = match (self, place) {
+            (Self::Reduced, FrictionContact::Joint) => {
+                (Some(Column::Coulomb), Column::QuadraticFriction)
+            }
+            (Self::Reduced, FrictionContact::Ground) => (None, Column::QuadraticDrag),
+            (Self::NewtonMetre, FrictionContact::Joint) => {
+                (Some(Column::PivotCoulomb), Column::PivotQuadratic)
+            }
+            (Self::NewtonMetre, FrictionContact::Ground) => (None, Column::GroundQuadratic),
+        };
+        let width = match place {
+            FrictionContact::Joint => Column::FrictionWidth,
+            FrictionContact::Ground => Column::DragWidth,
+        };
+        FrictionLaw {
+            coulomb,
+            quadratic: Some(quadratic),
+            width: Some(width),
         }
     }
 }

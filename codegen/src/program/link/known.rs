@@ -6,7 +6,6 @@ use crate::mechanics::BodySymbols;
 use crate::mechanics::expression::SymbolId;
 use crate::program::ValueId;
 use crate::program::entry_list::EntryList;
-use crate::program::friction::Law;
 use crate::scene::FrictionContact;
 
 impl Functions<'_> {
@@ -41,24 +40,13 @@ impl Functions<'_> {
         unit: TorqueUnit,
         place: FrictionContact,
     ) -> (SymbolId, ValueId) {
-        let [coulomb, quadratic, air] = unit.laws();
-        let (law, rate, suffix) = match place {
-            FrictionContact::Joint => {
-                let law = Law {
-                    coulomb: self.column(list, kind, coulomb),
-                    quadratic: self.column(list, kind, quadratic),
-                    width: self.column(list, kind, Column::FrictionWidth),
-                };
-                (law, Motion::JointRate, "_joint")
-            }
-            FrictionContact::Ground => {
-                let law = Law {
-                    coulomb: list.lowering.builder.integer(0),
-                    quadratic: self.column(list, kind, air),
-                    width: self.column(list, kind, Column::DragWidth),
-                };
-                (law, Motion::Omega, "_ground")
-            }
+        let law = unit.law(place).map(|column| match column {
+            Some(column) => self.column(list, kind, *column),
+            None => list.lowering.builder.integer(0),
+        });
+        let (rate, suffix) = match place {
+            FrictionContact::Joint => (Motion::JointRate, "_joint"),
+            FrictionContact::Ground => (Motion::Omega, "_ground"),
         };
         let rate = self.motion(list, rate);
         let torque = list.lowering.builder.braking_torque(&law, rate, suffix);

@@ -4,7 +4,7 @@
 use super::columns::Column;
 use crate::functions::{Argument, LINK_PROPERTIES};
 use crate::program::ConstantId;
-use crate::scene::PairRun;
+use crate::scene::{FrictionLaw, LAW_CONSTANTS, PairRun};
 
 /// Fields of the runtime's `LinkMotion`, in the order of the elements of an argument.
 pub const LINK_MOTION: [&str; 7] = [
@@ -54,8 +54,8 @@ pub struct SpringDamperConstants {
     pub rest: ConstantId,
     /// Coefficient of viscous friction, in N m s.
     pub friction: ConstantId,
-    /// Coulomb friction, quadratic friction and their smoothing width, if there are any.
-    pub law: Option<[ConstantId; 3]>,
+    /// Constants of the friction that is not viscous, if there is any.
+    pub law: Option<[ConstantId; LAW_CONSTANTS]>,
 }
 
 impl SpringDamperConstants {
@@ -67,8 +67,8 @@ impl SpringDamperConstants {
             ("friction", self.friction),
         ];
         let law = self.law.into_iter().flat_map(|law| {
-            let names = ["coulomb", "quadratic", "width"];
-            names.into_iter().zip(law)
+            let names = FrictionLaw::NAMES.map(|constant| constant.member);
+            names.into_constants().into_iter().zip(law)
         });
         own.into_iter().chain(law)
     }

@@ -19,7 +19,7 @@ impl Lowering<'_> {
                 continue;
             }
             let law = torques.law(FrictionContact::Joint);
-            let values = [&law.coulomb, &law.quadratic, &law.width];
+            let values = law.each_ref().into_constants();
             found.push(SpringDamperConstants {
                 what: what.clone(),
                 pairs,

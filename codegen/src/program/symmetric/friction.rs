@@ -14,7 +14,7 @@ pub(in crate::program) type LawValues = FrictionLaw<TruncatedSeries>;
 
 impl LawValues {
     pub(in crate::program) fn is_zero(&self) -> bool {
-        self.coulomb.is_zero() && self.quadratic.is_zero()
+        self.strengths().into_iter().all(TruncatedSeries::is_zero)
     }
 }
 

@@ -3,7 +3,6 @@
 use std::fmt::Write;
 
 use branched_pendulum::Positions;
-use branched_pendulum::friction::FrictionLaw;
 use branched_pendulum::sectors::Sectors;
 use branched_pendulum::spring_dampers::SpringDamper;
 use branched_pendulum::system::Model;
@@ -177,16 +176,8 @@ fn acting(own: &SpringDamper<f64>) -> String {
     if own.friction != 0.0 {
         parts.push(format!("friction {} N m s", own.friction));
     }
-    if let Some(FrictionLaw {
-        coulomb,
-        quadratic,
-        width,
-    }) = own.law
-    {
-        parts.push(format!(
-            "Coulomb friction {coulomb} N m, quadratic friction {quadratic} N m s², width {width} \
-             rad/s"
-        ));
+    if let Some(law) = own.law {
+        parts.push(law.to_string());
     }
     match parts.is_empty() {
         true => "nothing at these values".to_owned(),

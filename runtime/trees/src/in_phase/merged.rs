@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 use std::hash::{DefaultHasher, Hash, Hasher};
 
 use branched_pendulum::analysis::variational::Copies;
-use branched_pendulum_codegen::scene::{FrictionLaw, PassiveTorques};
+use branched_pendulum_codegen::scene::{FrictionContact, PassiveTorques};
 
 use crate::numbers::LinkNumbers;
 
@@ -175,10 +175,9 @@ fn size(links: &[LinkNumbers], own: &[usize]) -> f64 {
 /// Returns `sum` with the constants of a copy added.
 fn with(sum: &LinkNumbers, copy: &LinkNumbers) -> LinkNumbers {
     let (own, other) = (&sum.passive, &copy.passive);
-    let law = |place: usize| FrictionLaw {
-        coulomb: own.laws[place].coulomb + other.laws[place].coulomb,
-        quadratic: own.laws[place].quadratic + other.laws[place].quadratic,
-        width: own.laws[place].width,
+    let law = |place: FrictionContact| {
+        let (own, other) = (own.law(place), other.law(place));
+        own.combined(other, |a, b| *a + *b)
     };
     LinkNumbers {
         mass: sum.mass + copy.mass,
@@ -188,7 +187,7 @@ fn with(sum: &LinkNumbers, copy: &LinkNumbers) -> LinkNumbers {
             drag: own.drag + other.drag,
             spring: own.spring + other.spring,
             rest: own.rest,
-            laws: [law(0), law(1)],
+            laws: FrictionContact::ALL.map(law),
         },
         ..*sum
     }

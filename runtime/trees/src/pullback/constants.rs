@@ -6,7 +6,9 @@ use branched_pendulum::friction::FrictionLaw;
 use branched_pendulum::scalar::{Double, Dual, Scalar};
 use branched_pendulum::spring_dampers::SpringDamper;
 use branched_pendulum::translational::TranslationalSpringDamper;
-use branched_pendulum_codegen::scene::{FrictionContact, PassiveTorques, Quantity, Scene};
+use branched_pendulum_codegen::scene::{
+    self, FrictionContact, LAW_CONSTANTS, PassiveTorques, Quantity, Scene,
+};
 
 use crate::between::Between;
 use crate::drive::Courses;
@@ -69,7 +71,7 @@ impl<T: Scalar> Constants<T> {
         let laws = numbers::links_as_given(scene, &any).into_iter().map(|own| {
             let zero = Double::from_f64(0.0);
             let laws = own.passive.laws.each_ref();
-            laws.map(|law| law.coulomb != zero || law.quadratic != zero)
+            laws.map(|law| law.strengths().into_iter().any(|own| *own != zero))
         });
         let links = numbers::links_as_given(scene, &values);
         let between = Between::of(scene, links.len(), &values).cast(constant);
@@ -211,7 +213,7 @@ pub(super) fn drives<T: Scalar>(
 
 impl<T: Copy> LinkNumbers<T> {
     /// Returns the constants of the link one after the other.
-    pub(super) fn numbers(&self) -> [T; 16] {
+    pub(super) fn numbers(&self) -> [T; 10 + 2 * LAW_CONSTANTS] {
         let Self {
             parent: _,
             mass,
@@ -229,42 +231,26 @@ impl<T: Copy> LinkNumbers<T> {
             rest,
             laws: [joint, ground],
         } = passive;
-        [
-            mass,
-            inertia,
-            along,
-            across,
-            place_along,
-            place_across,
-            friction,
-            drag,
-            spring,
-            rest,
-            joint.coulomb,
-            joint.quadratic,
-            joint.width,
-            ground.coulomb,
-            ground.quadratic,
-            ground.width,
-        ]
+        let body = [mass, inertia, along, across, place_along, place_across];
+        let torques = [friction, drag, spring, rest];
+        let laws = [joint, ground].map(scene::FrictionLaw::into_constants);
+        let own = body.into_iter().chain(torques);
+        let mut all = own.chain(laws.into_iter().flatten());
+        // There are as many constants as places.
+        std::array::from_fn(|_| all.next().unwrap_or(mass))
     }
 }
 
 /// Returns the constants of a spring-damper one after the other.
-pub(super) fn numbers_of_spring<T: Scalar>(own: &SpringDamper<T>) -> [T; 6] {
+pub(super) fn numbers_of_spring<T: Scalar>(own: &SpringDamper<T>) -> [T; 3 + LAW_CONSTANTS] {
     let zero = T::from_f64(0.0);
-    let [coulomb, quadratic, width] = match own.law {
-        Some(law) => [law.coulomb, law.quadratic, law.width],
-        None => [zero; 3],
-    };
-    [
-        own.spring,
-        own.rest,
-        own.friction,
-        coulomb,
-        quadratic,
-        width,
-    ]
+    let law = own
+        .law
+        .map_or([zero; LAW_CONSTANTS], FrictionLaw::into_constants);
+    let own = [own.spring, own.rest, own.friction];
+    let mut all = own.into_iter().chain(law);
+    // There are as many constants as places.
+    std::array::from_fn(|_| all.next().unwrap_or(zero))
 }
 
 /// Returns the constants of a line one after the other: of the arms, of the fixed part, and of the

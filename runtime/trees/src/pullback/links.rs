@@ -4,6 +4,7 @@ use branched_pendulum::friction::FrictionLaw;
 use branched_pendulum::scalar::{Dual, Scalar};
 use branched_pendulum::spring_dampers::SpringDamper;
 use branched_pendulum::tree::RootDrive;
+use branched_pendulum_codegen::scene::{self, LAW_CONSTANTS};
 
 use super::constants::{Constants, LinkConstants, ParameterSlopes, numbers_of_spring};
 use super::planar::{Vector, arm, arm_slopes, direction, dot, scaled, sum, turned};
@@ -170,9 +171,7 @@ impl<'a, T: Scalar> VirtualPower<'a, T> {
         passive.drag = ground.friction;
         for (by, own) in passive.laws.iter_mut().zip([joint.law, ground.law]) {
             if let Some(own) = own {
-                by.coulomb = own.coulomb;
-                by.quadratic = own.quadratic;
-                by.width = own.width;
+                *by = scene::FrictionLaw::of_constants(own.into_constants());
             }
         }
         let [_, _, parameters] = &mut self.by;
@@ -233,19 +232,12 @@ impl<'a, T: Scalar> VirtualPower<'a, T> {
 
 /// Returns the derivatives of the torque of a law of friction by its constants and by the rate.
 fn law_slopes<T: Scalar>(law: &FrictionLaw<T>, rate: T) -> (FrictionLaw<T>, T) {
-    let at = |value: T, index: usize| Dual::<T, 4>::variable(value, index);
-    let varied = FrictionLaw {
-        coulomb: at(law.coulomb, 0),
-        quadratic: at(law.quadratic, 1),
-        width: at(law.width, 2),
+    let mut index = 0..=LAW_CONSTANTS;
+    let mut variable = |value: T| {
+        let index = index.next().unwrap_or(LAW_CONSTANTS);
+        Dual::<T, { LAW_CONSTANTS + 1 }>::variable(value, index)
     };
-    let [coulomb, quadratic, width, slope] = varied.torque(at(rate, 3)).tangents;
-    (
-        FrictionLaw {
-            coulomb,
-            quadratic,
-            width,
-        },
-        slope,
-    )
+    let varied = law.map(&mut variable);
+    let [constants @ .., slope] = varied.torque(variable(rate)).tangents;
+    (FrictionLaw::of_constants(constants), slope)
 }

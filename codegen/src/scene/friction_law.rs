@@ -1,0 +1,212 @@
+//! Law of friction that is not viscous.
+//!
+//! The order of the constants is that of [`FrictionLaw::into_constants`] everywhere: in
+//! descriptions, in the equations of a link and at run time. Code that treats all constants alike
+//! goes through arrays of this order.
+
+use super::Quantity;
+use super::bodies::GivenProperties;
+use crate::exact::Rational;
+
+/// Number of constants of a [`FrictionLaw`].
+pub const LAW_CONSTANTS: usize = 3;
+
+/// Law of the friction torque at the angular velocity w: −(C/s + q s) w with the speed s = √(w² +
+/// ε²). If |w| is large compared with the width ε, this is Coulomb's −C sign w plus −q w |w|; near
+/// w = 0 it is smooth.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct FrictionLaw<V = Quantity> {
+    /// Coulomb friction C, in N m.
+    pub coulomb: V,
+    /// Quadratic friction q, in N m s².
+    pub quadratic: V,
+    /// Smoothing width ε, in rad/s.
+    pub width: V,
+}
+
+/// Contact at which friction acts on a link.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FrictionContact {
+    /// The link's pivot; acts on the angular velocity relative to the parent.
+    Joint,
+    /// The ground; acts on the link's own angular velocity.
+    Ground,
+}
+
+impl FrictionContact {
+    /// Both contacts, in the order of [`PassiveTorques::laws`](super::PassiveTorques::laws).
+    pub const ALL: [Self; 2] = [Self::Joint, Self::Ground];
+
+    /// Returns the property of a link that contains the friction law.
+    pub fn property(self) -> &'static str {
+        match self {
+            Self::Joint => "friction",
+            Self::Ground => "drag",
+        }
+    }
+}
+
+/// Names and unit of one constant of a [`FrictionLaw`].
+#[derive(Clone, Copy, Debug)]
+pub struct LawConstant {
+    /// Name of the constant within a law, as in `friction(coulomb = 0.1)`.
+    pub member: &'static str,
+    /// Names of the constants that the compiler creates for a link, by [`FrictionContact`]; `None`
+    /// if the law at this contact has no such constant.
+    pub words: [Option<&'static str>; 2],
+    /// Letters of the constant in formulas, in text and in LaTeX.
+    pub letters: [&'static str; 2],
+    /// First words of the constant's description, which continues with the law and its link.
+    pub meaning: &'static str,
+    /// Unit.
+    pub unit: &'static str,
+}
+
+impl FrictionLaw<LawConstant> {
+    /// Names and units of all constants.
+    pub const NAMES: Self = Self {
+        coulomb: LawConstant {
+            member: "coulomb",
+            words: [Some("coulomb"), None],
+            letters: ["C", "C"],
+            meaning: "Coulomb ",
+            unit: "N m",
+        },
+        quadratic: LawConstant {
+            member: "quadratic",
+            words: [Some("quadratic_friction"), Some("quadratic_drag")],
+            letters: ["q", "q"],
+            meaning: "quadratic ",
+            unit: "N m s²",
+        },
+        width: LawConstant {
+            member: "width",
+            words: [Some("friction_width"), Some("drag_width")],
+            letters: ["ε", "\\varepsilon"],
+            meaning: "width of ",
+            unit: "rad/s",
+        },
+    };
+}
+
+impl LawConstant {
+    /// Returns the name of the constant in words, as in "quadratic drag".
+    pub fn in_words(&self, place: FrictionContact) -> String {
+        format!("{}{}", self.meaning, place.property())
+    }
+}
+
+impl<V> FrictionLaw<V> {
+    /// Creates a law from its constants.
+    pub fn of_constants([coulomb, quadratic, width]: [V; LAW_CONSTANTS]) -> Self {
+        Self {
+            coulomb,
+            quadratic,
+            width,
+        }
+    }
+
+    /// Returns the constants in the order of the fields.
+    pub fn into_constants(self) -> [V; LAW_CONSTANTS] {
+        let Self {
+            coulomb,
+            quadratic,
+            width,
+        } = self;
+        [coulomb, quadratic, width]
+    }
+
+    /// Returns references to the constants.
+    pub fn each_ref(&self) -> FrictionLaw<&V> {
+        let Self {
+            coulomb,
+            quadratic,
+            width,
+        } = self;
+        FrictionLaw {
+            coulomb,
+            quadratic,
+            width,
+        }
+    }
+
+    /// Returns the constants on which the torque depends. `is_zero` recognises a constant that is
+    /// zero.
+    pub fn effective(&self, is_zero: impl Fn(&V) -> bool) -> FrictionLaw<Option<&V>> {
+        let is_none = self.strengths().into_iter().all(is_zero);
+        self.each_ref().map(|own| (!is_none).then_some(*own))
+    }
+
+    /// Returns the law with `formed` applied to every constant.
+    pub fn map<W>(&self, formed: impl FnMut(&V) -> W) -> FrictionLaw<W> {
+        FrictionLaw::of_constants(self.each_ref().into_constants().map(formed))
+    }
+
+    /// Returns the constants that are proportional to the torque; without them there is no law.
+    pub fn strengths(&self) -> [&V; 2] {
+        [&self.coulomb, &self.quadratic]
+    }
+
+    /// Returns the constants that determine how the torque depends on the rate.
+    pub fn shape(&self) -> [&V; 1] {
+        [&self.width]
+    }
+
+    /// Returns the law of two contacts with the same [shape](Self::shape) that move as one. `sum`
+    /// adds two constants.
+    #[must_use]
+    pub fn combined(&self, other: &Self, sum: impl Fn(&V, &V) -> V) -> Self
+    where
+        V: Clone,
+    {
+        Self {
+            coulomb: sum(&self.coulomb, &other.coulomb),
+            quadratic: sum(&self.quadratic, &other.quadratic),
+            width: self.width.clone(),
+        }
+    }
+}
+
+impl FrictionLaw {
+    /// Returns the law of a contact without friction. The width is 1, because it is a divisor.
+    pub(super) fn none() -> Self {
+        Self {
+            coulomb: Quantity::zero(),
+            quadratic: Quantity::zero(),
+            width: Quantity::integer(1),
+        }
+    }
+
+    /// Reads the law of a link at a contact.
+    pub(super) fn of(given: &GivenProperties, place: FrictionContact) -> Self {
+        let member = |constant: LawConstant| format!("{}({})", place.property(), constant.member);
+        let names = FrictionLaw::NAMES.map(|constant| member(*constant));
+        let mut law = Self {
+            coulomb: given.get(&names.coulomb),
+            quadratic: given.get(&names.quadratic),
+            ..Self::none()
+        };
+        if !law.is_none() {
+            let width = given.value(&names.width).cloned();
+            law.width = width.unwrap_or_else(default_width);
+        }
+        law
+    }
+
+    /// Returns true if the law has no friction.
+    pub fn is_none(&self) -> bool {
+        self.strengths().into_iter().all(Quantity::is_zero)
+    }
+
+    /// Multiplies the torque of the law by the number of links that move as one.
+    pub(super) fn times(&mut self, count: usize) {
+        for value in [&mut self.coulomb, &mut self.quadratic] {
+            *value = value.times(count);
+        }
+    }
+}
+
+/// Returns the default smoothing width, 0.01 rad/s.
+fn default_width() -> Quantity {
+    Rational::from_ratio(1, 100).map_or_else(Quantity::zero, Quantity::number)
+}
