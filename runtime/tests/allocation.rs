@@ -332,7 +332,8 @@ fn no_transfer_allocates() {
         rest: 0.0,
         friction: 1e-3,
         drag: 1e-3,
-        laws: [[1e-3, 0.0, 0.1], [0.0, 0.0, 1.0]].map(FrictionLaw::of_constants),
+        laws: [[1e-3, 0.0, 0.1, 1e-3, 0.2], [0.0, 0.0, 1.0, 0.0, 1.0]]
+            .map(FrictionLaw::of_constants),
     };
     let coordinate = |name: &str, weights: &[(usize, f64)]| {
         SectorCoordinate::new(name.to_owned(), weights.to_vec())

@@ -64,6 +64,8 @@ fn law(law: &FrictionLaw) -> Law {
             coulomb: number(&law.coulomb),
             quadratic: number(&law.quadratic),
             width: number(&law.width),
+            excess: number(&law.excess),
+            stribeck: number(&law.stribeck),
         },
         true => Law::default(),
     }

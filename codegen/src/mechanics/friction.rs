@@ -9,10 +9,12 @@ use super::frame::DerivedFrame;
 use super::letters;
 use super::meaning::{DerivedSource, DerivedTorque};
 use super::print::Index;
+use crate::exact::Rational;
 use crate::scene::{Coordinate, FrictionContact, FrictionLaw, LinkId, PassiveTorques, Quantity};
 
-/// A friction torque D = (C/s + q s) w against the rate w, in a joint or against the ground:
-/// Coulomb friction C, quadratic friction q, speed s = √(w² + ε²).
+/// A friction torque D = (A/s + q s) w against the rate w, in a joint or against the ground: speed
+/// s = √(w² + ε²), quadratic friction q, and A = C + ΔC/(1 + (w/ϖ)²) with the Coulomb friction C,
+/// the excess ΔC of static friction and the Stribeck rate ϖ.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BrakingTorque {
     /// Symbol D of the friction torque.
@@ -36,7 +38,7 @@ pub enum TorqueSource {
         against: Option<LinkId>,
         /// Rate w, in the velocities of the frame.
         rate: Expr,
-        /// Friction law with coefficients C, q and ε.
+        /// Friction law with the coefficients C, q, ε, ΔC and ϖ.
         law: Box<FrictionLaw<Expr>>,
         /// Symbol of the speed s, used in printed formulas only.
         speed: SymbolId,
@@ -318,8 +320,26 @@ impl Derivation<'_> {
     }
 }
 
+impl FrictionLaw<Expr> {
+    /// Returns A = C + ΔC/(1 + (w/ϖ)²), the torque of Coulomb and static friction at high speed, as
+    /// a formula.
+    fn strength(&self, rate: &Expr) -> Expr {
+        if self.excess.is_zero() {
+            return self.coulomb.clone();
+        }
+        let power = |base: &Expr, exponent| Expr::Power(Box::new(base.clone()), exponent);
+        let ratio = Expr::Product(vec![power(rate, 2), power(&self.stribeck, -2)]);
+        let sum = Expr::Sum(vec![Expr::Number(Rational::one()), ratio]);
+        let excess = Expr::Product(vec![self.excess.clone(), power(&sum, -1)]);
+        match self.coulomb.is_zero() {
+            true => excess,
+            false => Expr::Sum(vec![self.coulomb.clone(), excess]),
+        }
+    }
+}
+
 impl BrakingTorque {
-    /// Returns the torque of one link as a formula, (C/s + q s) w; `None` for a symmetric
+    /// Returns the torque of one link as a formula, (A/s + q s) w; `None` for a symmetric
     /// coordinate.
     pub fn formula(&self) -> Option<Expr> {
         let TorqueSource::Link {
@@ -330,9 +350,10 @@ impl BrakingTorque {
         };
         let speed = Expr::Symbol(*speed);
         let mut parts = Vec::new();
-        if !law.coulomb.is_zero() {
+        let strength = law.strength(rate);
+        if !strength.is_zero() {
             let inverse = Expr::Power(Box::new(speed.clone()), -1);
-            parts.push(Expr::Product(vec![law.coulomb.clone(), inverse]));
+            parts.push(Expr::Product(vec![strength, inverse]));
         }
         if !law.quadratic.is_zero() {
             parts.push(Expr::Product(vec![law.quadratic.clone(), speed]));

@@ -98,7 +98,7 @@ impl Derivation<'_> {
         })
     }
 
-    /// Returns the slope c + C/ε + q ε of the friction torque at zero rate.
+    /// Returns the slope c + (C + ΔC)/ε + q ε of the friction torque at zero rate.
     fn friction_at_rest(&mut self, words: &ElementWords, passive: &PassiveTorques) -> Formula {
         let mut slope = Formula::zero();
         if !passive.friction.is_zero() {
@@ -112,8 +112,10 @@ impl Derivation<'_> {
                 coulomb,
                 quadratic,
                 width,
+                excess,
+                stribeck: _,
             } = self.name_law(words, FrictionContact::Joint, law);
-            slope = &slope + &(&(&coulomb / &width) + &(&quadratic * &width));
+            slope = &slope + &(&(&(&coulomb + &excess) / &width) + &(&quadratic * &width));
         }
         slope
     }

@@ -25,28 +25,113 @@ impl Builder {
         self.name(speed, &format!("speed{suffix}"))
     }
 
-    /// Computes the torque (C/s + q s) w, zero without a law; `suffix` is appended to the names of
+    /// Computes A/s with A = C + ΔC ϖ²/(ϖ² + w²) as one fraction, or C/s without an excess ΔC.
+    fn strength_over_speed(
+        &mut self,
+        law: &Law,
+        rate: ValueId,
+        speed: ValueId,
+        suffix: &str,
+    ) -> ValueId {
+        if self.is(law.excess, 0) {
+            return self.div(law.coulomb, speed);
+        }
+        let square = self.mul(rate, rate);
+        let stribeck = self.mul(law.stribeck, law.stribeck);
+        let sum = self.add(stribeck, square);
+        let sum = self.name(sum, &format!("stribeck_speed_squared{suffix}"));
+        let excess = self.mul(law.excess, stribeck);
+        let coulomb = self.mul(law.coulomb, sum);
+        let strength = self.add(coulomb, excess);
+        let divisor = self.mul(sum, speed);
+        self.div(strength, divisor)
+    }
+
+    /// Computes the torque (A/s + q s) w, zero without a law; `suffix` is appended to the names of
     /// its values.
     pub(super) fn braking_torque(&mut self, law: &Law, rate: ValueId, suffix: &str) -> ValueId {
-        let is_none = law.strengths().map(|constant| self.is(*constant, 0));
-        if is_none == [true; 2] {
+        let [coulomb, quadratic, excess] = law.strengths().map(|own| self.is(*own, 0));
+        if [coulomb, quadratic, excess] == [true; 3] {
             return self.integer(0);
         }
         let speed = self.speed(law, rate, suffix);
-        let factor = match is_none {
-            [true, _] => self.mul(law.quadratic, speed),
-            [_, true] => self.div(law.coulomb, speed),
+        let factor = match (coulomb && excess, quadratic) {
+            (true, _) => self.mul(law.quadratic, speed),
+            (_, true) => self.strength_over_speed(law, rate, speed, suffix),
             _ => {
-                let coulomb = self.div(law.coulomb, speed);
+                let strength = self.strength_over_speed(law, rate, speed, suffix);
                 let quadratic = self.mul(law.quadratic, speed);
-                self.add(coulomb, quadratic)
+                self.add(strength, quadratic)
             }
         };
         self.mul(factor, rate)
     }
 
-    /// Computes the derivative of the torque by w, C ε²/s³ + q (s + w²/s).
+    /// Computes the derivative of the torque by w, C ε²/s³ + q (s + w²/s), and that of the excess.
     fn braking_slope(&mut self, law: &Law, rate: ValueId, suffix: &str) -> ValueId {
+        let viscous = self.smoothed_slope(law, rate, suffix);
+        let excess = self.excess_derivatives(law, rate, suffix);
+        match excess {
+            Some([slope, _]) => self.add(viscous, slope),
+            None => viscous,
+        }
+    }
+
+    /// Computes the second derivative of the torque, [q (3 − w²/s²) − 3 C ε²/s⁴] w/s, and that of
+    /// the excess.
+    fn braking_curvature(&mut self, law: &Law, rate: ValueId, suffix: &str) -> ValueId {
+        let smoothed = self.smoothed_curvature(law, rate, suffix);
+        let excess = self.excess_derivatives(law, rate, suffix);
+        match excess {
+            Some([_, curvature]) => self.add(smoothed, curvature),
+            None => smoothed,
+        }
+    }
+
+    /// Computes the first and second derivative by w of the excess's torque B w/s, where B = ΔC r
+    /// and r = ϖ²/(ϖ² + w²); `None` without an excess. The slope is [ε²/s² − 2 (1 − r)] B/s and the
+    /// curvature −[(4 r − 3 + 2 ε²/s²) 2 r/ϖ² + 3 ε²/s⁴] B w/s.
+    fn excess_derivatives(
+        &mut self,
+        law: &Law,
+        rate: ValueId,
+        suffix: &str,
+    ) -> Option<[ValueId; 2]> {
+        if self.is(law.excess, 0) {
+            return None;
+        }
+        let speed = self.speed(law, rate, suffix);
+        let [one, two, three, four] = [1, 2, 3, 4].map(|number| self.integer(number));
+        let inverse = self.div(one, speed);
+        let width = self.mul(law.width, inverse);
+        let narrow = self.mul(width, width);
+        let [square, stribeck] = [rate, law.stribeck].map(|own| self.mul(own, own));
+        let sum = self.add(stribeck, square);
+        let per_sum = self.div(one, sum);
+        let [left, lost] = [stribeck, square].map(|own| self.mul(own, per_sum));
+        let strength = self.mul(law.excess, left);
+        let over_speed = self.mul(strength, inverse);
+        let twice = self.mul(two, lost);
+        let slope = self.sub(narrow, twice);
+        let slope = self.mul(over_speed, slope);
+        let first = self.mul(four, left);
+        let first = self.sub(first, three);
+        let second = self.mul(two, narrow);
+        let bend = self.add(first, second);
+        // r/ϖ² = 1/(ϖ² + w²).
+        let twice = self.mul(two, per_sum);
+        let bend = self.mul(twice, bend);
+        let squared = self.mul(inverse, inverse);
+        let steep = self.mul(narrow, squared);
+        let steep = self.mul(three, steep);
+        let sum = self.add(bend, steep);
+        let product = self.mul(over_speed, rate);
+        let curvature = self.mul(product, sum);
+        Some([slope, self.neg(curvature)])
+    }
+
+    /// Computes the derivative by w of the torque without the excess.
+    fn smoothed_slope(&mut self, law: &Law, rate: ValueId, suffix: &str) -> ValueId {
         let speed = self.speed(law, rate, suffix);
         let one = self.integer(1);
         let inverse = self.div(one, speed);
@@ -61,8 +146,8 @@ impl Builder {
         self.add(coulomb, quadratic)
     }
 
-    /// Computes the second derivative of the torque, [q (3 − w²/s²) − 3 C ε²/s⁴] w/s.
-    fn braking_curvature(&mut self, law: &Law, rate: ValueId, suffix: &str) -> ValueId {
+    /// Computes the second derivative by w of the torque without the excess.
+    fn smoothed_curvature(&mut self, law: &Law, rate: ValueId, suffix: &str) -> ValueId {
         let speed = self.speed(law, rate, suffix);
         let one = self.integer(1);
         let inverse = self.div(one, speed);

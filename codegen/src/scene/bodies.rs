@@ -111,6 +111,8 @@ pub(super) const COMMON: &[Dimension] = &[
     optional("friction", "N m s", Sign::NonNegative),
     optional("drag", "N m s", Sign::NonNegative),
     optional("friction(coulomb)", "N m", Sign::NonNegative),
+    optional("friction(static)", "N m", Sign::NonNegative),
+    optional("friction(stribeck)", "rad/s", Sign::Positive),
     optional("friction(quadratic)", "N m s²", Sign::NonNegative),
     optional("friction(width)", "rad/s", Sign::Positive),
     optional("drag(quadratic)", "N m s²", Sign::NonNegative),

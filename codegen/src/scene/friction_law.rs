@@ -1,19 +1,23 @@
-//! Law of friction that is not viscous.
+//! Law of friction that is not viscous: Coulomb, Stribeck and quadratic friction.
 //!
 //! The order of the constants is that of [`FrictionLaw::into_constants`] everywhere: in
 //! descriptions, in the equations of a link and at run time. Code that treats all constants alike
 //! goes through arrays of this order.
 
-use super::Quantity;
 use super::bodies::GivenProperties;
+use super::values::{Usage, Values};
+use super::{Quantity, Sign};
+use crate::description::Property;
 use crate::exact::Rational;
+use crate::report::{Faults, TreeMessage};
 
 /// Number of constants of a [`FrictionLaw`].
-pub const LAW_CONSTANTS: usize = 3;
+pub const LAW_CONSTANTS: usize = 5;
 
-/// Law of the friction torque at the angular velocity w: −(C/s + q s) w with the speed s = √(w² +
-/// ε²). If |w| is large compared with the width ε, this is Coulomb's −C sign w plus −q w |w|; near
-/// w = 0 it is smooth.
+/// Law of the friction torque at the angular velocity w: −(A/s + q s) w with the speed s = √(w² +
+/// ε²) and A = C + ΔC/(1 + (w/ϖ)²). If |w| is large compared with the width ε, this is −A sign w
+/// plus −q w |w|; near w = 0 it is smooth. A falls from the static friction C + ΔC to the Coulomb
+/// friction C as |w| passes the Stribeck rate ϖ; without an excess ΔC the law is Coulomb's.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct FrictionLaw<V = Quantity> {
     /// Coulomb friction C, in N m.
@@ -22,6 +26,10 @@ pub struct FrictionLaw<V = Quantity> {
     pub quadratic: V,
     /// Smoothing width ε, in rad/s.
     pub width: V,
+    /// Excess ΔC of static over Coulomb friction, in N m.
+    pub excess: V,
+    /// Stribeck rate ϖ, in rad/s, at which half of the excess is left.
+    pub stribeck: V,
 }
 
 /// Contact at which friction acts on a link.
@@ -49,7 +57,8 @@ impl FrictionContact {
 /// Names and unit of one constant of a [`FrictionLaw`].
 #[derive(Clone, Copy, Debug)]
 pub struct LawConstant {
-    /// Name of the constant within a law, as in `friction(coulomb = 0.1)`.
+    /// Name of the constant within a law, as in `friction(coulomb = 0.1)`. A description states the
+    /// static friction C + ΔC in place of the excess.
     pub member: &'static str,
     /// Names of the constants that the compiler creates for a link, by [`FrictionContact`]; `None`
     /// if the law at this contact has no such constant.
@@ -86,6 +95,20 @@ impl FrictionLaw<LawConstant> {
             meaning: "width of ",
             unit: "rad/s",
         },
+        excess: LawConstant {
+            member: "excess",
+            words: [Some("static_excess"), None],
+            letters: ["ΔC", "\\Delta C"],
+            meaning: "static excess of ",
+            unit: "N m",
+        },
+        stribeck: LawConstant {
+            member: "stribeck",
+            words: [Some("stribeck_rate"), None],
+            letters: ["ϖ", "\\varpi"],
+            meaning: "Stribeck rate of ",
+            unit: "rad/s",
+        },
     };
 }
 
@@ -98,11 +121,13 @@ impl LawConstant {
 
 impl<V> FrictionLaw<V> {
     /// Creates a law from its constants.
-    pub fn of_constants([coulomb, quadratic, width]: [V; LAW_CONSTANTS]) -> Self {
+    pub fn of_constants([coulomb, quadratic, width, excess, stribeck]: [V; LAW_CONSTANTS]) -> Self {
         Self {
             coulomb,
             quadratic,
             width,
+            excess,
+            stribeck,
         }
     }
 
@@ -112,8 +137,10 @@ impl<V> FrictionLaw<V> {
             coulomb,
             quadratic,
             width,
+            excess,
+            stribeck,
         } = self;
-        [coulomb, quadratic, width]
+        [coulomb, quadratic, width, excess, stribeck]
     }
 
     /// Returns references to the constants.
@@ -122,19 +149,30 @@ impl<V> FrictionLaw<V> {
             coulomb,
             quadratic,
             width,
+            excess,
+            stribeck,
         } = self;
         FrictionLaw {
             coulomb,
             quadratic,
             width,
+            excess,
+            stribeck,
         }
     }
 
-    /// Returns the constants on which the torque depends. `is_zero` recognises a constant that is
-    /// zero.
+    /// Returns the constants on which the torque depends: without an excess that is not the Stribeck
+    /// rate. `is_zero` recognises a constant that is zero.
     pub fn effective(&self, is_zero: impl Fn(&V) -> bool) -> FrictionLaw<Option<&V>> {
-        let is_none = self.strengths().into_iter().all(is_zero);
-        self.each_ref().map(|own| (!is_none).then_some(*own))
+        let all = self.each_ref().map(|own| Some(*own));
+        match is_zero(&self.excess) {
+            true => FrictionLaw {
+                excess: None,
+                stribeck: None,
+                ..all
+            },
+            false => all,
+        }
     }
 
     /// Returns the law with `formed` applied to every constant.
@@ -143,13 +181,13 @@ impl<V> FrictionLaw<V> {
     }
 
     /// Returns the constants that are proportional to the torque; without them there is no law.
-    pub fn strengths(&self) -> [&V; 2] {
-        [&self.coulomb, &self.quadratic]
+    pub fn strengths(&self) -> [&V; 3] {
+        [&self.coulomb, &self.quadratic, &self.excess]
     }
 
     /// Returns the constants that determine how the torque depends on the rate.
-    pub fn shape(&self) -> [&V; 1] {
-        [&self.width]
+    pub fn shape(&self) -> [&V; 2] {
+        [&self.width, &self.stribeck]
     }
 
     /// Returns the law of two contacts with the same [shape](Self::shape) that move as one. `sum`
@@ -163,17 +201,22 @@ impl<V> FrictionLaw<V> {
             coulomb: sum(&self.coulomb, &other.coulomb),
             quadratic: sum(&self.quadratic, &other.quadratic),
             width: self.width.clone(),
+            excess: sum(&self.excess, &other.excess),
+            stribeck: self.stribeck.clone(),
         }
     }
 }
 
 impl FrictionLaw {
-    /// Returns the law of a contact without friction. The width is 1, because it is a divisor.
+    /// Returns the law of a contact without friction. The width and the Stribeck rate are 1,
+    /// because they are divisors.
     pub(super) fn none() -> Self {
         Self {
             coulomb: Quantity::zero(),
             quadratic: Quantity::zero(),
             width: Quantity::integer(1),
+            excess: Quantity::zero(),
+            stribeck: Quantity::integer(1),
         }
     }
 
@@ -186,11 +229,46 @@ impl FrictionLaw {
             quadratic: given.get(&names.quadratic),
             ..Self::none()
         };
+        if let Some(excess) = excess(given, place) {
+            law.excess = excess;
+        }
         if !law.is_none() {
             let width = given.value(&names.width).cloned();
             law.width = width.unwrap_or_else(default_width);
         }
+        if let (Some(rate), false) = (given.value(&names.stribeck), law.excess.is_zero()) {
+            law.stribeck = rate.clone();
+        }
         law
+    }
+
+    /// Checks that the static friction of the link or clause `owner` is at least its Coulomb
+    /// friction. Returns `None` after reporting that it is not.
+    pub(super) fn check(
+        given: &GivenProperties,
+        owner: &str,
+        properties: &[Property],
+        values: &mut Values,
+        report: &mut Faults,
+    ) -> Option<()> {
+        let own = properties
+            .iter()
+            .find(|own| own.key() == "friction(static)");
+        let (Some(own), Some(excess)) = (own, excess(given, FrictionContact::Joint)) else {
+            return Some(());
+        };
+        let span = own.name.span();
+        if excess.exact().is_some_and(Rational::is_negative) {
+            let link = owner.to_owned();
+            report.error(span, TreeMessage::StaticBelowCoulomb { link });
+            return None;
+        }
+        let usage = Usage {
+            what: format!("static friction minus Coulomb friction of `{owner}`"),
+            unit: "N m",
+            sign: Sign::NonNegative,
+        };
+        values.accept(excess, &usage, span, report).map(|_| ())
     }
 
     /// Returns true if the law has no friction.
@@ -200,10 +278,18 @@ impl FrictionLaw {
 
     /// Multiplies the torque of the law by the number of links that move as one.
     pub(super) fn times(&mut self, count: usize) {
-        for value in [&mut self.coulomb, &mut self.quadratic] {
+        for value in [&mut self.coulomb, &mut self.quadratic, &mut self.excess] {
             *value = value.times(count);
         }
     }
+}
+
+/// Returns the static friction minus the Coulomb friction; `None` if no static friction is given.
+fn excess(given: &GivenProperties, place: FrictionContact) -> Option<Quantity> {
+    let property = place.property();
+    let breakaway = given.value(&format!("{property}(static)"))?.clone();
+    let coulomb = given.get(&format!("{property}(coulomb)"));
+    Some(Quantity::sum([breakaway, coulomb.negative()]))
 }
 
 /// Returns the default smoothing width, 0.01 rad/s.

@@ -165,16 +165,27 @@ pub(super) fn check_rest(
     }
 }
 
-/// Reports a rest angle without a spring, and a smoothing width without a friction law.
+/// Reports a rest angle without a spring, a smoothing width without a friction law, and a static
+/// friction or a Stribeck rate without the other.
 pub(super) fn check_idle(properties: &[Property], owner: &str, report: &mut Faults) {
     check_rest(properties, owner, "N m", report);
     let find = |name: &str| properties.iter().find(|p| p.key() == name);
     let link = || owner.to_owned();
     for force in ["friction", "drag"] {
         let member = |member: &str| find(&format!("{force}({member})"));
-        if let (Some(width), None, None) = (member("width"), member("coulomb"), member("quadratic"))
-        {
+        let laws = ["coulomb", "static", "quadratic"].map(member);
+        if let (Some(width), [None, None, None]) = (member("width"), laws) {
             report.error(width.name.span(), TreeMessage::IdleWidth { link: link() });
         }
+    }
+    let link = link();
+    match (find("friction(static)"), find("friction(stribeck)")) {
+        (Some(own), None) => {
+            report.error(own.name.span(), TreeMessage::StaticWithoutRate { link });
+        }
+        (None, Some(own)) => {
+            report.error(own.name.span(), TreeMessage::RateWithoutStatic { link });
+        }
+        (Some(_), Some(_)) | (None, None) => {}
     }
 }

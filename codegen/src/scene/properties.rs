@@ -292,6 +292,13 @@ impl LinkKind {
             };
             values.accept(value(given), &usage, node.name.span(), report)?;
         }
+        FrictionLaw::check(
+            given,
+            &node.name.to_string(),
+            &node.properties,
+            values,
+            report,
+        )?;
         self.body(given, node, report)
     }
 
@@ -388,6 +395,7 @@ fn in_words(name: &str) -> String {
     match name {
         "com" => "centre of mass".to_owned(),
         "at" => "pivot".to_owned(),
+        "friction(static)" => "static friction".to_owned(),
         _ => of_law(name).unwrap_or_else(|| name.replace('_', " ")),
     }
 }

@@ -133,10 +133,10 @@ pub(super) fn scaled(
         if RATIOS.iter().any(|ratio| ratio.dimension.name == *name) {
             continue;
         }
-        // One ratio applies to all kinds of friction; the smoothing width does not change.
+        // One ratio applies to all kinds of friction; the rates of the laws do not change.
         let (property, member) = name.split_once('(').unwrap_or((name, ""));
         let own = RATIOS.iter().find(|ratio| ratio.property == property);
-        let own = own.filter(|_| member != "width)");
+        let own = own.filter(|_| !["width)", "stribeck)"].contains(&member));
         let own = own.map(|ratio| ratio.dimension.name);
         let factor = match (own.filter(|own| first.value(own).is_some()), *name) {
             (Some(own), _) => power(own)?,

@@ -12,7 +12,9 @@ use super::prescribed::LinkNames;
 use super::properties::evaluate;
 use super::translational::DescribedTranslationalSpringDamper;
 use super::values::Values;
-use super::{Coordinate, CoordinateKind, LinkId, OrbitId, Quantity, Reduction, Scene, WholeNode};
+use super::{
+    Coordinate, CoordinateKind, FrictionLaw, LinkId, OrbitId, Quantity, Reduction, Scene, WholeNode,
+};
 use crate::description::{BETWEEN, Description, GUY, SIBLINGS, SpringDamperClause, Value};
 use crate::report::{Faults, TreeMessage, ValueMessage, nearest};
 
@@ -201,6 +203,8 @@ pub(super) fn forces_of_spring_dampers(
                 }
             }
         }
+        // A mistake is in the report; what follows does not depend on it.
+        let _ = FrictionLaw::check(&given, &what, &clause.properties, values, report);
         if clause.properties.is_empty() && !clause.damaged {
             report.error(clause.name.span(), TreeMessage::IdleSpringDamper { what });
         }

@@ -61,6 +61,24 @@ fn own_torque_leans_with_the_wind() {
 }
 
 #[test]
+fn falling_friction_feeds_the_swing_of_froudes_pendulum() {
+    let text = printed(env!("CARGO_BIN_EXE_froude"));
+    let rows = text.lines().skip(1).map(|line| {
+        let words = line.split_whitespace().filter(|word| *word != "%");
+        let numbers = words.map(|word| word.parse().unwrap());
+        numbers.collect::<Vec<f64>>()
+    });
+    let rows: Vec<Vec<f64>> = rows.collect();
+    let [coulomb, weak, strong] = &rows[..] else {
+        panic!("{text}");
+    };
+    assert!(coulomb[3] < 0.9 * coulomb[1] && coulomb[4] == 0.0, "{text}");
+    for row in [weak, strong] {
+        assert!(row[3] > 5.0 * coulomb[1] && row[4] > 5.0, "{text}");
+    }
+}
+
+#[test]
 fn events_end_the_run_where_the_rod_turns_over() {
     let text = printed(env!("CARGO_BIN_EXE_events"));
     let times: Vec<f64> = text

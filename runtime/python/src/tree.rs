@@ -44,7 +44,8 @@ const MOST_NAMES: usize = 8;
 ///                               `mass_ratio`, `length_ratio`, `friction_ratio`
 /// `friction = c`                viscous friction in the pivot, N m s
 /// `friction(viscous = c,        and Coulomb friction (N m), quadratic friction (N m s²),
-/// coulomb = ..., ...)`          smooth below the rate `width` (rad/s)
+/// coulomb = ..., ...)`          smooth below the rate `width` (rad/s); `static` friction (N m)
+///                               falls to Coulomb friction past the rate `stribeck` (rad/s)
 /// `drag = c`, `drag(...)`       the same against the ground
 /// `spring = k, rest = r`        a spring in the pivot, N m/rad, at rest at r (rad)
 /// `between(a, b, spring = k,    a spring and friction on the difference of two links' angles;

@@ -375,3 +375,18 @@ def test_names_of_physicists_and_of_files():
     for name in ("swing.txt", "trees/swing", "../a.txt"):
         with pytest.raises(bp.DescriptionError, match="looks like the name of a file"):
             bp.Tree(name)
+
+
+def test_static_friction_falls_to_coulomb_friction():
+    tree = bp.Tree(
+        "gravity = 0, rod: rod(mass = 0.2, length = 0.3, "
+        "friction(coulomb = 0.02, static = 0.05, stribeck = 1.5, width = 0.1))"
+    )
+    inertia = 0.2 * 0.3**2 / 3
+    for rate in (-3.0, 0.05, 1.5, 20.0):
+        strength = 0.02 + 0.03 / (1 + (rate / 1.5) ** 2)
+        torque = -strength * rate / np.hypot(rate, 0.1)
+        (found,) = tree.accelerations([0.0], [rate])
+        assert found == pytest.approx(torque / inertia, rel=1e-13)
+    with pytest.raises(ValueError, match="no Stribeck rate"):
+        bp.Tree("gravity = 1, rod: rod(mass = 1, length = 1, friction(static = 1))")

@@ -5,7 +5,7 @@
     gravity = g,
     tree: generations(count = 3, branching = 2, mass = m, com = (d, e), inertia = i, joint = (l, w),
         spring = s, rest = r,
-        friction(viscous = c, coulomb = f, quadratic = q, width = u),
+        friction(viscous = c, coulomb = f, static = y, stribeck = z, quadratic = q, width = u),
         drag(viscous = k, quadratic = p, width = v)),
     drive(torque = torque, x = a * t^2),
     emit(budget(parseval, scales)),

@@ -88,7 +88,9 @@ impl Carried {
             stiffness: passive.spring,
             pivot_friction: passive.friction,
             ground_drag: passive.drag,
+            stribeck_rate: joint.stribeck,
             pivot_coulomb: joint.coulomb,
+            pivot_excess: joint.excess,
             pivot_quadratic: joint.quadratic,
             ground_quadratic: ground.quadratic,
         }

@@ -67,12 +67,12 @@ pub enum ParameterUse {
     Inertia,
     /// Viscous friction in a pivot, or drag against the air.
     ViscousFriction,
-    /// Coulomb friction.
+    /// Coulomb or static friction.
     CoulombFriction,
     /// Friction that grows with the square of the velocity.
     QuadraticFriction,
     /// Stiffness of a spring, its rest angle or rest length, the strength of a repulsion, or the
-    /// width of a friction law.
+    /// width or the Stribeck rate of a friction law.
     Joint,
     /// The drive.
     Drive,
@@ -205,7 +205,8 @@ impl TreeDescription {
             ),
             (
                 CoulombFriction,
-                of_laws(|own| own.laws.each_ref().map(|law| &law.coulomb)),
+                of_laws(|own| own.laws.each_ref().map(|law| &law.coulomb))
+                    || of_laws(|own| own.laws.each_ref().map(|law| &law.excess)),
             ),
             (
                 QuadraticFriction,
@@ -215,6 +216,7 @@ impl TreeDescription {
                 Joint,
                 of_laws(|own| [&own.spring, &own.rest])
                     || of_laws(|own| own.laws.each_ref().map(|law| &law.width))
+                    || of_laws(|own| own.laws.each_ref().map(|law| &law.stribeck))
                     || springs,
             ),
             (Drive, is_in_drive(scene, is_in)),

@@ -239,6 +239,16 @@ impl Properties<'_> {
         let _ = write!(self.text, "{force}(");
         if coulomb {
             law.coulomb = self.number("coulomb", 1e-3, 0.5);
+            // Half of these laws have static friction, told by the Coulomb friction: another
+            // draw would make other trees of all that follow.
+            let digits = (law.coulomb * 1e6).round();
+            if digits % 2.0 == 0.0 {
+                let breakaway = law.coulomb + (digits % 97.0 + 1.0) / 200.0;
+                law.excess = breakaway - law.coulomb;
+                law.stribeck = (digits % 13.0 + 1.0) / 10.0;
+                let stribeck = law.stribeck;
+                let _ = write!(self.text, "static = {breakaway}, stribeck = {stribeck}, ");
+            }
         }
         if parts >= 2 {
             law.quadratic = self.number("quadratic", 1e-4, 0.1);

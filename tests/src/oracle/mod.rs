@@ -45,7 +45,7 @@ pub struct Link {
     pub laws: [Law; 2],
 }
 
-/// A torque of Coulomb and quadratic friction, smooth at rest.
+/// A torque of Coulomb, Stribeck and quadratic friction, smooth at rest.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Law {
     /// Coulomb friction, N m.
@@ -54,6 +54,10 @@ pub struct Law {
     pub quadratic: f64,
     /// Rate at which both are as smooth as they are strong, rad/s.
     pub width: f64,
+    /// Static friction minus Coulomb friction, N m.
+    pub excess: f64,
+    /// Rate at which half of the excess is left, rad/s.
+    pub stribeck: f64,
 }
 
 impl Default for Law {
@@ -62,6 +66,8 @@ impl Default for Law {
             coulomb: 0.0,
             quadratic: 0.0,
             width: 1.0,
+            excess: 0.0,
+            stribeck: 1.0,
         }
     }
 }
@@ -71,8 +77,12 @@ impl Law {
     /// the rate is the sum of changes by one part in one.
     pub(crate) fn torque(&self, rate: f64, terms: f64) -> (f64, f64) {
         let speed = rate.hypot(self.width);
-        let torque = self.coulomb * (rate / speed) + self.quadratic * rate * speed;
-        let slope = self.coulomb * (self.width / speed).powi(2) / speed
+        let ratio = (rate / self.stribeck).powi(2);
+        let excess = self.excess / (1.0 + ratio);
+        let dry = self.coulomb + excess;
+        let torque = dry * (rate / speed) + self.quadratic * rate * speed;
+        let slope = dry * (self.width / speed).powi(2) / speed
+            + 2.0 * excess * ratio / (1.0 + ratio) / speed
             + self.quadratic * (speed + rate * rate / speed);
         (torque, torque.abs() + slope * terms)
     }

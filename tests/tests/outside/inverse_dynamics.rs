@@ -10,19 +10,20 @@ use branched_pendulum_compiler_tests::random::Random;
 macro_rules! branch {
     ($name:ident, $how:ident = $value:ident) => {
         #[branched_pendulum(
-            gravity = 9.80665,
-            $how = $value,
-            limb: rod(mass = 0.4, length = 0.5, friction = 2e-2) [
-                bough(mass = 0.1, com = (0.12, 0.01), inertia = 1e-3, at = (0.3, -0.02),
-                    joint = (0.25, 0.03), spring = 0.1, friction(coulomb = 0.01, width = 0.1)) [
-                    twig: rod(mass = 0.03, length = 0.2, drag = 1e-4) * 2
-                ],
-                shoot(mass = 0.05, com = 0.1, inertia = 1e-4),
-            ],
-            between(twig_2, shoot, spring = 0.03, rest = 0.2),
-            drive(torque = 0.2 * cos(3 * t), y = 0.01 * cos(4 * t)),
-            emit(energies, inverse_dynamics),
-        )]
+                    gravity = 9.80665,
+                    $how = $value,
+                    limb: rod(mass = 0.4, length = 0.5, friction = 2e-2) [
+                        bough(mass = 0.1, com = (0.12, 0.01), inertia = 1e-3, at = (0.3, -0.02),
+                            joint = (0.25, 0.03), spring = 0.1, friction(coulomb = 0.01,
+                                static = 0.015, stribeck = 0.3, width = 0.1)) [
+                            twig: rod(mass = 0.03, length = 0.2, drag = 1e-4) * 2
+                        ],
+                        shoot(mass = 0.05, com = 0.1, inertia = 1e-4),
+                    ],
+                    between(twig_2, shoot, spring = 0.03, rest = 0.2),
+                    drive(torque = 0.2 * cos(3 * t), y = 0.01 * cos(4 * t)),
+                    emit(energies, inverse_dynamics),
+                )]
         struct $name;
     };
 }

@@ -130,6 +130,7 @@ impl Lowering<'_> {
                     Column::PivotFriction => passive.friction,
                     Column::GroundDrag => passive.drag,
                     Column::PivotCoulomb => joint.coulomb,
+                    Column::PivotExcess => joint.excess,
                     Column::PivotQuadratic => joint.quadratic,
                     Column::GroundQuadratic => ground.quadratic,
                     // These constants belong to the equations of motion only.
@@ -150,6 +151,8 @@ impl Lowering<'_> {
                     | Column::Rest
                     | Column::Coulomb
                     | Column::QuadraticFriction
+                    | Column::StaticExcess
+                    | Column::StribeckRate
                     | Column::FrictionWidth
                     | Column::QuadraticDrag
                     | Column::DragWidth

@@ -25,6 +25,8 @@ named_members! {
         Rest = "rest": "angle at which the torsion spring is at rest",
         Coulomb = "coulomb": "Coulomb friction in the pivot over m l²",
         QuadraticFriction = "quadratic_friction": "quadratic friction in the pivot over m l²",
+        StaticExcess = "static_excess": "excess of static over Coulomb friction over m l²",
+        StribeckRate = "stribeck_rate": "Stribeck rate of friction in the pivot, rad/s",
         FrictionWidth = "friction_width": "width of friction in the pivot, rad/s",
         QuadraticDrag = "quadratic_drag": "quadratic drag over m l²",
         DragWidth = "drag_width": "width of drag, rad/s",
@@ -47,6 +49,7 @@ named_members! {
         PivotFriction = "pivot_friction": "friction in the pivot (N m s)",
         GroundDrag = "ground_drag": "drag against the ground (N m s)",
         PivotCoulomb = "pivot_coulomb": "Coulomb friction in the pivot (N m)",
+        PivotExcess = "pivot_excess": "excess of static over Coulomb friction in the pivot (N m)",
         PivotQuadratic = "pivot_quadratic": "quadratic friction in the pivot (N m s²)",
         GroundQuadratic = "ground_quadratic": "quadratic drag against the ground (N m s²)",
         DriveTorque = "drive_torque": "torque on the root over m l², stated by each evaluation",
@@ -84,14 +87,24 @@ impl TorqueUnit {
             }
             (Self::NewtonMetre, FrictionContact::Ground) => (None, Column::GroundQuadratic),
         };
-        let width = match place {
-            FrictionContact::Joint => Column::FrictionWidth,
-            FrictionContact::Ground => Column::DragWidth,
+        let excess = match self {
+            Self::Reduced => Column::StaticExcess,
+            Self::NewtonMetre => Column::PivotExcess,
+        };
+        let (width, excess, stribeck) = match place {
+            FrictionContact::Joint => (
+                Column::FrictionWidth,
+                Some(excess),
+                Some(Column::StribeckRate),
+            ),
+            FrictionContact::Ground => (Column::DragWidth, None, None),
         };
         FrictionLaw {
             coulomb,
             quadratic: Some(quadratic),
             width: Some(width),
+            excess,
+            stribeck,
         }
     }
 }

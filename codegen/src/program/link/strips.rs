@@ -313,6 +313,7 @@ fn row(
         drag,
         spring,
         coulomb,
+        static_excess,
         quadratic_friction,
         quadratic_drag,
     ] = torques(&unit.passive).map(|force| builder.div(force, torque));
@@ -334,6 +335,8 @@ fn row(
         Column::Rest => unit.passive.rest,
         Column::Coulomb => coulomb,
         Column::QuadraticFriction => quadratic_friction,
+        Column::StaticExcess => static_excess,
+        Column::StribeckRate => joint.stribeck,
         Column::FrictionWidth => joint.width,
         Column::QuadraticDrag => quadratic_drag,
         Column::DragWidth => ground.width,
@@ -359,6 +362,7 @@ fn row(
         | Column::PivotFriction
         | Column::GroundDrag
         | Column::PivotCoulomb
+        | Column::PivotExcess
         | Column::PivotQuadratic
         | Column::GroundQuadratic => zero,
     })
@@ -366,13 +370,14 @@ fn row(
 
 /// Returns the constants of springs and friction that are proportional to the torque: of springs,
 /// of viscous friction and of other friction laws.
-fn torques(passive: &PassiveTorques<ValueId>) -> [ValueId; 6] {
+fn torques(passive: &PassiveTorques<ValueId>) -> [ValueId; 7] {
     let [joint, ground] = &passive.laws;
     [
         passive.friction,
         passive.drag,
         passive.spring,
         joint.coulomb,
+        joint.excess,
         joint.quadratic,
         ground.quadratic,
     ]

@@ -1,7 +1,8 @@
 //! Torques of friction that is not viscous, computed on means and differences.
 //!
-//! Between copies they are nonlinear. Given f = w² + ε² and y = 1/√f, everything else is products
-//! of fields, so that zero differences remain zero and small ones keep their digits.
+//! Between copies they are nonlinear. Given f = w² + ε² and y = 1/√f, and for static friction z =
+//! 1/√(w² + ϖ²), everything else is products of fields, so that zero differences remain zero and
+//! small ones keep their digits.
 
 use super::field::{SymmetricField, SymmetricTree};
 use super::motion::{ConstantValues, Fields};
@@ -54,7 +55,7 @@ impl SymmetricTree<'_> {
         }
     }
 
-    /// Computes the torque (C/s + q s) w = (C y + q f y) w.
+    /// Computes the torque (A/s + q s) w = (A y + q f y) w.
     pub(in crate::program) fn braking_torque(
         &mut self,
         law: &LawValues,
@@ -68,6 +69,11 @@ impl SymmetricTree<'_> {
         let inverse = self.inverse_root(&square);
         self.hinted(&inverse, "inverse_speed");
         let mut factor = self.scale(&law.coulomb, &inverse);
+        if !law.excess.is_zero() {
+            let excess = self.static_excess(law, rate);
+            let excess = self.mul(&excess, &inverse);
+            factor = self.add(&factor, &excess);
+        }
         if !law.quadratic.is_zero() {
             let speed = self.mul(&square, &inverse);
             self.hinted(&speed, "speed");
@@ -75,6 +81,19 @@ impl SymmetricTree<'_> {
             factor = self.add(&factor, &quadratic);
         }
         self.mul(&factor, rate)
+    }
+
+    /// Computes ΔC ϖ²/(ϖ² + w²), the excess of friction over Coulomb friction, as ΔC ϖ² z².
+    fn static_excess(&mut self, law: &LawValues, rate: &SymmetricField) -> SymmetricField {
+        let square = self.mul(rate, rate);
+        let stribeck = self.series.mul(&law.stribeck, &law.stribeck);
+        let sum = SymmetricField::uniform(rate.orbit, stribeck.clone());
+        let sum = self.add(&square, &sum);
+        let inverse = self.inverse_root(&sum);
+        self.hinted(&inverse, "inverse_stribeck_speed");
+        let inverse = self.mul(&inverse, &inverse);
+        let most = self.series.mul(&law.excess, &stribeck);
+        self.scale(&most, &inverse)
     }
 
     /// Computes 1/√f of a positive field, link by link.

@@ -120,6 +120,24 @@ messages! {
         "viscous friction has no width",
         "add `coulomb = ...` in N m or `quadratic = ...` in N m s², or leave `width` out",
     ),
+    /// Static friction is less than Coulomb friction.
+    StaticBelowCoulomb { link: String } => (
+        format!("the static friction of `{link}` is less than its Coulomb friction"),
+        "less than `coulomb`",
+        "write the friction at rest, which is at least the friction in motion",
+    ),
+    /// A static friction is given without a Stribeck rate.
+    StaticWithoutRate { link: String } => (
+        format!("`{link}` has static friction, but no Stribeck rate"),
+        "the rate at which it falls to Coulomb friction is not given",
+        "add `stribeck = ...` in rad/s: half of the excess over `coulomb` is left at this rate",
+    ),
+    /// A Stribeck rate is given without a static friction.
+    RateWithoutStatic { link: String } => (
+        format!("`{link}` has a Stribeck rate, but no static friction"),
+        "no friction to fall to Coulomb friction",
+        "add `static = ...` in N m, at least the Coulomb friction, or leave `stribeck` out",
+    ),
     /// Drag of a locked link has a smoothing width other than that of the link that it is locked
     /// to.
     LockedWidth { link: String } => (

@@ -57,7 +57,7 @@ pub(crate) struct ByRuleEquations;
 
 #[allow(clippy::many_single_char_names, clippy::possible_missing_comma)]
 impl ::branched_pendulum::tree::LinkEquations for ByRuleEquations {
-    type Constants<T: ::branched_pendulum::Scalar> = [T; 34];
+    type Constants<T: ::branched_pendulum::Scalar> = [T; 37];
     type Response<T: ::branched_pendulum::Scalar> = [T; 6];
     type Sums<T: ::branched_pendulum::Scalar> = [T; 6];
     type Elimination<T: ::branched_pendulum::Scalar> = [T; 3];
@@ -70,7 +70,7 @@ impl ::branched_pendulum::tree::LinkEquations for ByRuleEquations {
     /// The response of a link without children: N and γ, and the torque of its joint on
     /// the parent where joints have torques.
     ///
-    /// Cost: 24 ×, 12 ±, 1 ÷, 2 √, 1 negation; 8 of the ± can be fused with a × if the
+    /// Cost: 28 ×, 14 ±, 1 ÷, 2 √, 1 negation; 9 of the ± can be fused with a × if the
     /// scalar supports it.
     #[inline(always)]
     fn leaf<T: ::branched_pendulum::Scalar>(
@@ -79,8 +79,9 @@ impl ::branched_pendulum::tree::LinkEquations for ByRuleEquations {
     ) -> Self::Response<T> {
         let [
             inertia, _, _, _, gain_along, gain_across, _, _, _, friction, drag, spring,
-            rest, coulomb, quadratic_friction, friction_width, quadratic_drag, drag_width,
-            _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _,
+            rest, coulomb, quadratic_friction, static_excess, stribeck_rate,
+            friction_width, quadratic_drag, drag_width, _, _, _, _, _, _, _, _, _, _, _,
+            _, _, _, _, _, _,
         ] = *constants;
         let ::branched_pendulum::tree::LinkMotion {
             sine,
@@ -90,12 +91,22 @@ impl ::branched_pendulum::tree::LinkEquations for ByRuleEquations {
             joint_rate,
             ..
         } = link;
+        let joint_rate_squared = joint_rate * joint_rate;
         let speed_joint = friction_width
-            .mul_add(friction_width, joint_rate * joint_rate)
+            .mul_add(friction_width, joint_rate_squared)
             .sqrt();
+        let stribeck_rate_squared = stribeck_rate * stribeck_rate;
+        let stribeck_speed_squared_joint = stribeck_rate_squared + joint_rate_squared;
         let joint_torque = friction * joint_rate;
         let joint_torque = quadratic_friction
-            .mul_add(speed_joint, coulomb / speed_joint)
+            .mul_add(
+                speed_joint,
+                static_excess
+                    .mul_add(
+                        stribeck_rate_squared,
+                        coulomb * stribeck_speed_squared_joint,
+                    ) / (stribeck_speed_squared_joint * speed_joint),
+            )
             .mul_add(joint_rate, joint_torque);
         let joint_torque = spring.mul_add(joint_angle - rest, joint_torque);
         let omega_squared = omega * omega;
@@ -140,7 +151,7 @@ impl ::branched_pendulum::tree::LinkEquations for ByRuleEquations {
 
     /// The response of a link with children, and b/J and κ/J, which `accelerate` takes.
     ///
-    /// Cost: 46 ×, 40 ±, 2 ÷, 2 √, 1 negation; 24 of the ± can be fused with a × if the
+    /// Cost: 50 ×, 42 ±, 2 ÷, 2 √, 1 negation; 25 of the ± can be fused with a × if the
     /// scalar supports it.
     #[inline(always)]
     fn inner<T: ::branched_pendulum::Scalar>(
@@ -150,8 +161,9 @@ impl ::branched_pendulum::tree::LinkEquations for ByRuleEquations {
     ) -> (Self::Response<T>, Self::Elimination<T>) {
         let [
             inertia, moment, lateral_moment, mass, _, _, _, along, across, friction, drag,
-            spring, rest, coulomb, quadratic_friction, friction_width, quadratic_drag,
-            drag_width, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, drive_torque,
+            spring, rest, coulomb, quadratic_friction, static_excess, stribeck_rate,
+            friction_width, quadratic_drag, drag_width, _, _, _, _, _, _, _, _, _, _, _,
+            _, _, _, _, _, drive_torque,
         ] = *constants;
         let ::branched_pendulum::tree::LinkMotion {
             sine,
@@ -165,12 +177,22 @@ impl ::branched_pendulum::tree::LinkEquations for ByRuleEquations {
             deficit_xx_below, deficit_xy_below, deficit_yy_below, bias_force_x_below,
             bias_force_y_below, joint_torque_below,
         ] = below;
+        let joint_rate_squared = joint_rate * joint_rate;
         let speed_joint = friction_width
-            .mul_add(friction_width, joint_rate * joint_rate)
+            .mul_add(friction_width, joint_rate_squared)
             .sqrt();
+        let stribeck_rate_squared = stribeck_rate * stribeck_rate;
+        let stribeck_speed_squared_joint = stribeck_rate_squared + joint_rate_squared;
         let joint_torque = friction * joint_rate;
         let joint_torque = quadratic_friction
-            .mul_add(speed_joint, coulomb / speed_joint)
+            .mul_add(
+                speed_joint,
+                static_excess
+                    .mul_add(
+                        stribeck_rate_squared,
+                        coulomb * stribeck_speed_squared_joint,
+                    ) / (stribeck_speed_squared_joint * speed_joint),
+            )
             .mul_add(joint_rate, joint_torque);
         let joint_torque = spring.mul_add(joint_angle - rest, joint_torque);
         let omega_squared = omega * omega;
@@ -259,7 +281,7 @@ impl ::branched_pendulum::tree::LinkEquations for ByRuleEquations {
     ) -> (T, Self::Carried<T>) {
         let [
             _, _, _, _, _, _, _, along, across, _, _, _, _, _, _, _, _, _, _, _, _, _, _,
-            _, _, _, _, _, _, _, _, _, _, _,
+            _, _, _, _, _, _, _, _, _, _, _, _, _, _,
         ] = *constants;
         let ::branched_pendulum::tree::LinkMotion { sine, cosine, omega, .. } = link;
         let [gain_x, gain_y, offset] = elimination;
@@ -288,7 +310,7 @@ impl ::branched_pendulum::tree::LinkEquations for ByRuleEquations {
 
     /// The angular acceleration (in rad/s²) of a link without children.
     ///
-    /// Cost: 18 ×, 12 ±, 1 ÷, 2 √; 8 of the ± can be fused with a × if the scalar
+    /// Cost: 22 ×, 14 ±, 1 ÷, 2 √; 9 of the ± can be fused with a × if the scalar
     /// supports it.
     #[inline(always)]
     fn accelerate_leaf<T: ::branched_pendulum::Scalar>(
@@ -298,8 +320,9 @@ impl ::branched_pendulum::tree::LinkEquations for ByRuleEquations {
     ) -> T {
         let [
             _, _, _, _, gain_along, gain_across, inverse_inertia, _, _, friction, drag,
-            spring, rest, coulomb, quadratic_friction, friction_width, quadratic_drag,
-            drag_width, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _,
+            spring, rest, coulomb, quadratic_friction, static_excess, stribeck_rate,
+            friction_width, quadratic_drag, drag_width, _, _, _, _, _, _, _, _, _, _, _,
+            _, _, _, _, _, _,
         ] = *constants;
         let ::branched_pendulum::tree::LinkMotion {
             sine,
@@ -310,12 +333,22 @@ impl ::branched_pendulum::tree::LinkEquations for ByRuleEquations {
             ..
         } = link;
         let [gravity_x, gravity_y] = pivot;
+        let joint_rate_squared = joint_rate * joint_rate;
         let speed_joint = friction_width
-            .mul_add(friction_width, joint_rate * joint_rate)
+            .mul_add(friction_width, joint_rate_squared)
             .sqrt();
+        let stribeck_rate_squared = stribeck_rate * stribeck_rate;
+        let stribeck_speed_squared_joint = stribeck_rate_squared + joint_rate_squared;
         let joint_torque = friction * joint_rate;
         let joint_torque = quadratic_friction
-            .mul_add(speed_joint, coulomb / speed_joint)
+            .mul_add(
+                speed_joint,
+                static_excess
+                    .mul_add(
+                        stribeck_rate_squared,
+                        coulomb * stribeck_speed_squared_joint,
+                    ) / (stribeck_speed_squared_joint * speed_joint),
+            )
             .mul_add(joint_rate, joint_torque);
         let joint_torque = spring.mul_add(joint_angle - rest, joint_torque);
         let omega_squared = omega * omega;
@@ -357,7 +390,7 @@ impl ::branched_pendulum::tree::ScaleEquations for ByRuleEquations {
     /// ```
     /// </details>
     ///
-    /// Cost: 11 ×, 6 ±, 1 ÷, 2 √; 5 of the ± can be fused with a × if the scalar
+    /// Cost: 15 ×, 8 ±, 1 ÷, 2 √; 6 of the ± can be fused with a × if the scalar
     /// supports it.
     #[inline(always)]
     fn scale_torques<T: ::branched_pendulum::Scalar>(
@@ -365,9 +398,10 @@ impl ::branched_pendulum::tree::ScaleEquations for ByRuleEquations {
         link: ::branched_pendulum::tree::LinkMotion<T>,
     ) -> [T; 4] {
         let [
-            _, _, _, _, _, _, _, _, _, _, _, _, rest, _, _, friction_width, _, drag_width,
-            _, _, _, _, _, _, _, _, _, stiffness, pivot_friction, ground_drag,
-            pivot_coulomb, pivot_quadratic, ground_quadratic, _,
+            _, _, _, _, _, _, _, _, _, _, _, _, rest, _, _, _, stribeck_rate,
+            friction_width, _, drag_width, _, _, _, _, _, _, _, _, _, stiffness,
+            pivot_friction, ground_drag, pivot_coulomb, pivot_excess, pivot_quadratic,
+            ground_quadratic, _,
         ] = *constants;
         let ::branched_pendulum::tree::LinkMotion {
             omega,
@@ -375,9 +409,12 @@ impl ::branched_pendulum::tree::ScaleEquations for ByRuleEquations {
             joint_rate,
             ..
         } = link;
+        let joint_rate_squared = joint_rate * joint_rate;
         let speed_joint = friction_width
-            .mul_add(friction_width, joint_rate * joint_rate)
+            .mul_add(friction_width, joint_rate_squared)
             .sqrt();
+        let stribeck_rate_squared = stribeck_rate * stribeck_rate;
+        let stribeck_speed_squared_joint = stribeck_rate_squared + joint_rate_squared;
         let joint_angle_minus_rest = joint_angle - rest;
         let omega_squared = omega * omega;
         let speed_ground = drag_width.mul_add(drag_width, omega_squared).sqrt();
@@ -385,7 +422,14 @@ impl ::branched_pendulum::tree::ScaleEquations for ByRuleEquations {
             joint_angle_minus_rest,
             stiffness * joint_angle_minus_rest,
             pivot_quadratic
-                .mul_add(speed_joint, pivot_coulomb / speed_joint)
+                .mul_add(
+                    speed_joint,
+                    pivot_excess
+                        .mul_add(
+                            stribeck_rate_squared,
+                            pivot_coulomb * stribeck_speed_squared_joint,
+                        ) / (stribeck_speed_squared_joint * speed_joint),
+                )
                 .mul_add(joint_rate, pivot_friction * joint_rate),
             (ground_quadratic * speed_ground).mul_add(omega, ground_drag * omega),
         ]
@@ -419,8 +463,8 @@ impl ::branched_pendulum::tree::ScaleEquations for ByRuleEquations {
         given: [T; 2],
     ) -> [T; 4] {
         let [
-            _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, com_along,
-            com_across, place_along, place_across, _, _, _, _, _, _, _, _, _, _,
+            _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, com_along,
+            com_across, place_along, place_across, _, _, _, _, _, _, _, _, _, _, _,
         ] = *constants;
         let ::branched_pendulum::tree::LinkMotion { sine, cosine, omega, .. } = link;
         let [pivot_velocity_x, pivot_velocity_y] = given;
@@ -466,8 +510,9 @@ impl ::branched_pendulum::tree::ScaleEquations for ByRuleEquations {
         given: [T; 4],
     ) -> [T; 4] {
         let [
-            _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, body_mass, _, com_along,
-            com_across, place_along, place_across, _, _, _, _, _, _, _, _, _, _,
+            _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, body_mass, _,
+            com_along, com_across, place_along, place_across, _, _, _, _, _, _, _, _, _,
+            _, _,
         ] = *constants;
         let _ = link;
         let [velocity_x, velocity_y, carried_x, carried_y] = given;
@@ -522,9 +567,9 @@ impl ::branched_pendulum::tree::ScaleEquations for ByRuleEquations {
         given: [T; 7],
     ) -> [T; 1] {
         let [
-            _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, body_mass, body_inertia,
-            _, _, _, _, carried_moment, lateral_carried_moment, gravity, stiffness, _, _,
-            _, _, _, _,
+            _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, body_mass,
+            body_inertia, _, _, _, _, carried_moment, lateral_carried_moment, gravity,
+            stiffness, _, _, _, _, _, _, _,
         ] = *constants;
         let _ = link;
         let [
@@ -568,7 +613,7 @@ impl ::branched_pendulum::tree::ScaleEquations for ByRuleEquations {
     ) -> [T; 6] {
         let [
             inertia, moment, lateral_moment, mass, _, _, _, along, across, _, _, _, _, _,
-            _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _,
+            _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _,
         ] = *constants;
         let ::branched_pendulum::tree::LinkMotion { sine, cosine, .. } = link;
         let [deficit_xx_below, deficit_xy_below, deficit_yy_below] = given;
@@ -615,8 +660,8 @@ impl ::branched_pendulum::tree::ScaleEquations for ByRuleEquations {
         given: [T; 8],
     ) -> [T; 3] {
         let [
-            _, _, _, _, _, _, _, along, across, _, _, _, _, _, _, _, _, _, _,
-            body_inertia, _, _, _, _, _, _, _, _, _, _, _, _, _, _,
+            _, _, _, _, _, _, _, along, across, _, _, _, _, _, _, _, _, _, _, _, _,
+            body_inertia, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _,
         ] = *constants;
         let ::branched_pendulum::tree::LinkMotion { sine, cosine, .. } = link;
         let [
@@ -670,9 +715,9 @@ impl ::branched_pendulum::tree::ScaleEquations for ByRuleEquations {
         given: [T; 7],
     ) -> [T; 7] {
         let [
-            _, _, _, _, _, _, _, along, across, _, _, _, _, _, _, _, _, _, _, _,
+            _, _, _, _, _, _, _, along, across, _, _, _, _, _, _, _, _, _, _, _, _, _,
             com_along, com_across, place_along, place_across, _, _, _, _, _, _, _, _, _,
-            _,
+            _, _,
         ] = *constants;
         let ::branched_pendulum::tree::LinkMotion { sine, cosine, omega, .. } = link;
         let [
@@ -726,8 +771,8 @@ impl ::branched_pendulum::tree::ScaleEquations for ByRuleEquations {
         given: [T; 8],
     ) -> [T; 1] {
         let [
-            _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _,
-            carried_moment, lateral_carried_moment, gravity, _, _, _, _, _, _, _,
+            _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _,
+            carried_moment, lateral_carried_moment, gravity, _, _, _, _, _, _, _, _,
         ] = *constants;
         let ::branched_pendulum::tree::LinkMotion { sine, cosine, omega, .. } = link;
         let [
@@ -772,8 +817,8 @@ impl ::branched_pendulum::tree::ScaleEquations for ByRuleEquations {
         given: [T; 2],
     ) -> [T; 1] {
         let [
-            _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _,
-            carried_moment, lateral_carried_moment, _, _, _, _, _, _, _, _,
+            _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _,
+            carried_moment, lateral_carried_moment, _, _, _, _, _, _, _, _, _,
         ] = *constants;
         let ::branched_pendulum::tree::LinkMotion { sine, cosine, .. } = link;
         let [acceleration_x, acceleration_y] = given;
@@ -828,6 +873,10 @@ pub(crate) struct ByRuleRow<T> {
     pub(crate) coulomb: T,
     /// Quadratic friction in the pivot over m l².
     pub(crate) quadratic_friction: T,
+    /// Excess of static over Coulomb friction over m l².
+    pub(crate) static_excess: T,
+    /// Stribeck rate of friction in the pivot, rad/s.
+    pub(crate) stribeck_rate: T,
     /// Width of friction in the pivot, rad/s.
     pub(crate) friction_width: T,
     /// Quadratic drag over m l².
@@ -860,6 +909,8 @@ pub(crate) struct ByRuleRow<T> {
     pub(crate) ground_drag: T,
     /// Coulomb friction in the pivot (N m).
     pub(crate) pivot_coulomb: T,
+    /// Excess of static over Coulomb friction in the pivot (N m).
+    pub(crate) pivot_excess: T,
     /// Quadratic friction in the pivot (N m s²).
     pub(crate) pivot_quadratic: T,
     /// Quadratic drag against the ground (N m s²).
@@ -870,7 +921,7 @@ pub(crate) struct ByRuleRow<T> {
 
 impl<T> ByRuleRow<T> {
     /// Returns the constants in the order of the columns.
-    pub(crate) fn into_array(self) -> [T; 34] {
+    pub(crate) fn into_array(self) -> [T; 37] {
         let Self {
             inertia,
             moment,
@@ -887,6 +938,8 @@ impl<T> ByRuleRow<T> {
             rest,
             coulomb,
             quadratic_friction,
+            static_excess,
+            stribeck_rate,
             friction_width,
             quadratic_drag,
             drag_width,
@@ -903,6 +956,7 @@ impl<T> ByRuleRow<T> {
             pivot_friction,
             ground_drag,
             pivot_coulomb,
+            pivot_excess,
             pivot_quadratic,
             ground_quadratic,
             drive_torque,
@@ -923,6 +977,8 @@ impl<T> ByRuleRow<T> {
             rest,
             coulomb,
             quadratic_friction,
+            static_excess,
+            stribeck_rate,
             friction_width,
             quadratic_drag,
             drag_width,
@@ -939,6 +995,7 @@ impl<T> ByRuleRow<T> {
             pivot_friction,
             ground_drag,
             pivot_coulomb,
+            pivot_excess,
             pivot_quadratic,
             ground_quadratic,
             drive_torque,

@@ -58,7 +58,7 @@ pub(crate) struct NonViscousEquations;
 
 #[allow(clippy::many_single_char_names, clippy::possible_missing_comma)]
 impl ::branched_pendulum::tree::LinkEquations for NonViscousEquations {
-    type Constants<T: ::branched_pendulum::Scalar> = [T; 19];
+    type Constants<T: ::branched_pendulum::Scalar> = [T; 21];
     type Response<T: ::branched_pendulum::Scalar> = [T; 6];
     type Sums<T: ::branched_pendulum::Scalar> = [T; 10];
     type Elimination<T: ::branched_pendulum::Scalar> = [T; 3];
@@ -72,7 +72,7 @@ impl ::branched_pendulum::tree::LinkEquations for NonViscousEquations {
     /// The response of a link without children: N and γ, and the torque of its joint on
     /// the parent where joints have torques.
     ///
-    /// Cost: 24 ×, 13 ±, 1 ÷, 2 √; 8 of the ± can be fused with a × if the scalar
+    /// Cost: 28 ×, 15 ±, 1 ÷, 2 √; 9 of the ± can be fused with a × if the scalar
     /// supports it.
     #[inline(always)]
     fn leaf<T: ::branched_pendulum::Scalar>(
@@ -81,8 +81,8 @@ impl ::branched_pendulum::tree::LinkEquations for NonViscousEquations {
     ) -> Self::Response<T> {
         let [
             inertia, _, _, _, gain_along, gain_across, _, _, _, friction, drag, spring,
-            rest, coulomb, quadratic_friction, friction_width, quadratic_drag, drag_width,
-            _,
+            rest, coulomb, quadratic_friction, static_excess, stribeck_rate,
+            friction_width, quadratic_drag, drag_width, _,
         ] = *constants;
         let ::branched_pendulum::tree::LinkMotion {
             sine,
@@ -93,12 +93,22 @@ impl ::branched_pendulum::tree::LinkEquations for NonViscousEquations {
             outside_torque,
             ..
         } = link;
+        let joint_rate_squared = joint_rate * joint_rate;
         let speed_joint = friction_width
-            .mul_add(friction_width, joint_rate * joint_rate)
+            .mul_add(friction_width, joint_rate_squared)
             .sqrt();
+        let stribeck_rate_squared = stribeck_rate * stribeck_rate;
+        let stribeck_speed_squared_joint = stribeck_rate_squared + joint_rate_squared;
         let joint_torque = friction * joint_rate;
         let joint_torque = quadratic_friction
-            .mul_add(speed_joint, coulomb / speed_joint)
+            .mul_add(
+                speed_joint,
+                static_excess
+                    .mul_add(
+                        stribeck_rate_squared,
+                        coulomb * stribeck_speed_squared_joint,
+                    ) / (stribeck_speed_squared_joint * speed_joint),
+            )
             .mul_add(joint_rate, joint_torque);
         let joint_torque = spring.mul_add(joint_angle - rest, joint_torque);
         let omega_squared = omega * omega;
@@ -130,7 +140,7 @@ impl ::branched_pendulum::tree::LinkEquations for NonViscousEquations {
         link: ::branched_pendulum::tree::LinkMotion<T>,
         response: Self::Response<T>,
     ) -> Self::Sums<T> {
-        let [_, _, _, _, _, _, _, along, across, _, _, _, _, _, _, _, _, _, _] = *constants;
+        let [_, _, _, _, _, _, _, along, across, _, _, _, _, _, _, _, _, _, _, _, _] = *constants;
         let ::branched_pendulum::tree::LinkMotion { sine, cosine, omega, .. } = link;
         let [
             deficit_xx_child, deficit_xy_child, deficit_yy_child, bias_force_x_child,
@@ -179,7 +189,7 @@ impl ::branched_pendulum::tree::LinkEquations for NonViscousEquations {
 
     /// The response of a link with children, and b/J and κ/J, which `accelerate` takes.
     ///
-    /// Cost: 25 ×, 26 ±, 2 ÷, 2 √, 1 negation; 14 of the ± can be fused with a × if the
+    /// Cost: 29 ×, 28 ±, 2 ÷, 2 √, 1 negation; 15 of the ± can be fused with a × if the
     /// scalar supports it.
     #[inline(always)]
     fn inner<T: ::branched_pendulum::Scalar>(
@@ -189,8 +199,8 @@ impl ::branched_pendulum::tree::LinkEquations for NonViscousEquations {
     ) -> (Self::Response<T>, Self::Elimination<T>) {
         let [
             inertia, moment, lateral_moment, mass, _, _, _, _, _, friction, drag, spring,
-            rest, coulomb, quadratic_friction, friction_width, quadratic_drag, drag_width,
-            drive_torque,
+            rest, coulomb, quadratic_friction, static_excess, stribeck_rate,
+            friction_width, quadratic_drag, drag_width, drive_torque,
         ] = *constants;
         let ::branched_pendulum::tree::LinkMotion {
             sine,
@@ -206,12 +216,22 @@ impl ::branched_pendulum::tree::LinkEquations for NonViscousEquations {
             moment_y_below, inertia_below, force_x_below, force_y_below, torque_below,
             joint_torque_below,
         ] = below;
+        let joint_rate_squared = joint_rate * joint_rate;
         let speed_joint = friction_width
-            .mul_add(friction_width, joint_rate * joint_rate)
+            .mul_add(friction_width, joint_rate_squared)
             .sqrt();
+        let stribeck_rate_squared = stribeck_rate * stribeck_rate;
+        let stribeck_speed_squared_joint = stribeck_rate_squared + joint_rate_squared;
         let joint_torque = friction * joint_rate;
         let joint_torque = quadratic_friction
-            .mul_add(speed_joint, coulomb / speed_joint)
+            .mul_add(
+                speed_joint,
+                static_excess
+                    .mul_add(
+                        stribeck_rate_squared,
+                        coulomb * stribeck_speed_squared_joint,
+                    ) / (stribeck_speed_squared_joint * speed_joint),
+            )
             .mul_add(joint_rate, joint_torque);
         let joint_torque = spring.mul_add(joint_angle - rest, joint_torque);
         let omega_squared = omega * omega;
@@ -258,7 +278,7 @@ impl ::branched_pendulum::tree::LinkEquations for NonViscousEquations {
         link: ::branched_pendulum::tree::LinkMotion<T>,
         carried: Self::Carried<T>,
     ) -> [T; 2] {
-        let [_, _, _, _, _, _, _, along, across, _, _, _, _, _, _, _, _, _, _] = *constants;
+        let [_, _, _, _, _, _, _, along, across, _, _, _, _, _, _, _, _, _, _, _, _] = *constants;
         let _ = link;
         let [gravity_x, gravity_y, end_x, end_y] = carried;
         [
@@ -298,7 +318,7 @@ impl ::branched_pendulum::tree::LinkEquations for NonViscousEquations {
 
     /// The angular acceleration (in rad/s²) of a link without children.
     ///
-    /// Cost: 18 ×, 13 ±, 1 ÷, 2 √; 9 of the ± can be fused with a × if the scalar
+    /// Cost: 22 ×, 15 ±, 1 ÷, 2 √; 10 of the ± can be fused with a × if the scalar
     /// supports it.
     #[inline(always)]
     fn accelerate_leaf<T: ::branched_pendulum::Scalar>(
@@ -308,8 +328,8 @@ impl ::branched_pendulum::tree::LinkEquations for NonViscousEquations {
     ) -> T {
         let [
             _, _, _, _, gain_along, gain_across, inverse_inertia, _, _, friction, drag,
-            spring, rest, coulomb, quadratic_friction, friction_width, quadratic_drag,
-            drag_width, _,
+            spring, rest, coulomb, quadratic_friction, static_excess, stribeck_rate,
+            friction_width, quadratic_drag, drag_width, _,
         ] = *constants;
         let ::branched_pendulum::tree::LinkMotion {
             sine,
@@ -321,12 +341,22 @@ impl ::branched_pendulum::tree::LinkEquations for NonViscousEquations {
             ..
         } = link;
         let [gravity_x, gravity_y] = pivot;
+        let joint_rate_squared = joint_rate * joint_rate;
         let speed_joint = friction_width
-            .mul_add(friction_width, joint_rate * joint_rate)
+            .mul_add(friction_width, joint_rate_squared)
             .sqrt();
+        let stribeck_rate_squared = stribeck_rate * stribeck_rate;
+        let stribeck_speed_squared_joint = stribeck_rate_squared + joint_rate_squared;
         let joint_torque = friction * joint_rate;
         let joint_torque = quadratic_friction
-            .mul_add(speed_joint, coulomb / speed_joint)
+            .mul_add(
+                speed_joint,
+                static_excess
+                    .mul_add(
+                        stribeck_rate_squared,
+                        coulomb * stribeck_speed_squared_joint,
+                    ) / (stribeck_speed_squared_joint * speed_joint),
+            )
             .mul_add(joint_rate, joint_torque);
         let joint_torque = spring.mul_add(joint_angle - rest, joint_torque);
         let omega_squared = omega * omega;
@@ -343,7 +373,7 @@ impl ::branched_pendulum::tree::LinkEquations for NonViscousEquations {
 
 #[allow(clippy::many_single_char_names, clippy::possible_missing_comma)]
 impl ::branched_pendulum::tree::BodyEquations for NonViscousEquations {
-    type Body<T: ::branched_pendulum::Scalar> = [T; 19];
+    type Body<T: ::branched_pendulum::Scalar> = [T; 21];
 
     /// Velocity **P**' of a child's pivot, given the motion of the parent and the
     /// velocity of the parent's pivot.
@@ -369,7 +399,8 @@ impl ::branched_pendulum::tree::BodyEquations for NonViscousEquations {
         given: [T; 2],
     ) -> [T; 2] {
         let [
-            _, _, _, _, _, _, _, pivot_along, pivot_across, _, _, _, _, _, _, _, _, _, _,
+            _, _, _, _, _, _, _, _, pivot_along, pivot_across, _, _, _, _, _, _, _, _, _,
+            _, _,
         ] = *body;
         let ::branched_pendulum::tree::LinkMotion { sine, cosine, omega, .. } = link;
         let [pivot_velocity_x, pivot_velocity_y] = given;
@@ -401,8 +432,8 @@ impl ::branched_pendulum::tree::BodyEquations for NonViscousEquations {
         given: [T; 2],
     ) -> [T; 1] {
         let [
-            _, _, _, body_mass, body_inertia, com_along, com_across, _, _, _, _, _, _, _,
-            _, _, _, _, _,
+            _, _, _, _, body_mass, body_inertia, com_along, com_across, _, _, _, _, _, _,
+            _, _, _, _, _, _, _,
         ] = *body;
         let ::branched_pendulum::tree::LinkMotion { sine, cosine, omega, .. } = link;
         let [pivot_velocity_x, pivot_velocity_y] = given;
@@ -445,8 +476,8 @@ impl ::branched_pendulum::tree::BodyEquations for NonViscousEquations {
         link: ::branched_pendulum::tree::LinkMotion<T>,
     ) -> [T; 1] {
         let [
-            rest, _, _, _, _, _, _, _, _, _, _, weight_moment, lateral_weight_moment,
-            stiffness, _, _, _, _, _,
+            rest, _, _, _, _, _, _, _, _, _, _, _, weight_moment, lateral_weight_moment,
+            stiffness, _, _, _, _, _, _,
         ] = *body;
         let ::branched_pendulum::tree::LinkMotion { sine, cosine, joint_angle, .. } = link;
         let joint_angle_minus_rest = joint_angle - rest;
@@ -471,26 +502,32 @@ impl ::branched_pendulum::tree::BodyEquations for NonViscousEquations {
     /// ```
     /// </details>
     ///
-    /// Cost: 10 ×, 6 ±, 1 ÷, 2 √.
+    /// Cost: 14 ×, 8 ±, 1 ÷, 2 √.
     #[inline(always)]
     fn friction_loss<T: ::branched_pendulum::Scalar>(
         body: &Self::Body<T>,
         link: ::branched_pendulum::tree::LinkMotion<T>,
     ) -> [T; 1] {
         let [
-            _, friction_width, drag_width, _, _, _, _, _, _, _, _, _, _, _,
-            pivot_friction, ground_drag, pivot_coulomb, pivot_quadratic, ground_quadratic,
+            _, stribeck_rate, friction_width, drag_width, _, _, _, _, _, _, _, _, _, _, _,
+            pivot_friction, ground_drag, pivot_coulomb, pivot_excess, pivot_quadratic,
+            ground_quadratic,
         ] = *body;
         let ::branched_pendulum::tree::LinkMotion { omega, joint_rate, .. } = link;
+        let joint_rate_squared = joint_rate * joint_rate;
         let omega_squared = omega * omega;
-        let speed_joint = (joint_rate * joint_rate + friction_width * friction_width)
-            .sqrt();
+        let speed_joint = (joint_rate_squared + friction_width * friction_width).sqrt();
+        let stribeck_rate_squared = stribeck_rate * stribeck_rate;
+        let stribeck_speed_squared_joint = stribeck_rate_squared + joint_rate_squared;
         let speed_ground = (omega_squared + drag_width * drag_width).sqrt();
         [
             joint_rate
                 * (joint_rate
                     * (pivot_friction
-                        + (pivot_coulomb / speed_joint + pivot_quadratic * speed_joint)))
+                        + ((pivot_coulomb * stribeck_speed_squared_joint
+                            + pivot_excess * stribeck_rate_squared)
+                            / (stribeck_speed_squared_joint * speed_joint)
+                            + pivot_quadratic * speed_joint)))
                 + omega * (omega * (ground_drag + ground_quadratic * speed_ground)),
         ]
     }
@@ -517,8 +554,8 @@ impl ::branched_pendulum::tree::BodyEquations for NonViscousEquations {
         given: [T; 3],
     ) -> [T; 1] {
         let [
-            _, _, _, _, _, _, _, _, _, carried_moment, lateral_carried_moment, _, _, _, _,
-            _, _, _, _,
+            _, _, _, _, _, _, _, _, _, _, carried_moment, lateral_carried_moment, _, _, _,
+            _, _, _, _, _, _,
         ] = *body;
         let ::branched_pendulum::tree::LinkMotion { sine, cosine, omega, .. } = link;
         let [acceleration_x, acceleration_y, root_torque] = given;
@@ -590,6 +627,10 @@ pub(crate) struct NonViscousRow<T> {
     pub(crate) coulomb: T,
     /// Quadratic friction in the pivot over m l².
     pub(crate) quadratic_friction: T,
+    /// Excess of static over Coulomb friction over m l².
+    pub(crate) static_excess: T,
+    /// Stribeck rate of friction in the pivot, rad/s.
+    pub(crate) stribeck_rate: T,
     /// Width of friction in the pivot, rad/s.
     pub(crate) friction_width: T,
     /// Quadratic drag over m l².
@@ -602,7 +643,7 @@ pub(crate) struct NonViscousRow<T> {
 
 impl<T> NonViscousRow<T> {
     /// Returns the constants in the order of the columns.
-    pub(crate) fn into_array(self) -> [T; 19] {
+    pub(crate) fn into_array(self) -> [T; 21] {
         let Self {
             inertia,
             moment,
@@ -619,6 +660,8 @@ impl<T> NonViscousRow<T> {
             rest,
             coulomb,
             quadratic_friction,
+            static_excess,
+            stribeck_rate,
             friction_width,
             quadratic_drag,
             drag_width,
@@ -640,6 +683,8 @@ impl<T> NonViscousRow<T> {
             rest,
             coulomb,
             quadratic_friction,
+            static_excess,
+            stribeck_rate,
             friction_width,
             quadratic_drag,
             drag_width,
@@ -653,6 +698,8 @@ impl<T> NonViscousRow<T> {
 pub(crate) struct NonViscousBodyRow<T> {
     /// Angle at which the torsion spring is at rest.
     pub(crate) rest: T,
+    /// Stribeck rate of friction in the pivot, rad/s.
+    pub(crate) stribeck_rate: T,
     /// Width of friction in the pivot, rad/s.
     pub(crate) friction_width: T,
     /// Width of drag, rad/s.
@@ -685,6 +732,8 @@ pub(crate) struct NonViscousBodyRow<T> {
     pub(crate) ground_drag: T,
     /// Coulomb friction in the pivot (N m).
     pub(crate) pivot_coulomb: T,
+    /// Excess of static over Coulomb friction in the pivot (N m).
+    pub(crate) pivot_excess: T,
     /// Quadratic friction in the pivot (N m s²).
     pub(crate) pivot_quadratic: T,
     /// Quadratic drag against the ground (N m s²).
@@ -693,9 +742,10 @@ pub(crate) struct NonViscousBodyRow<T> {
 
 impl<T> NonViscousBodyRow<T> {
     /// Returns the constants in the order of the columns.
-    pub(crate) fn into_array(self) -> [T; 19] {
+    pub(crate) fn into_array(self) -> [T; 21] {
         let Self {
             rest,
+            stribeck_rate,
             friction_width,
             drag_width,
             body_mass,
@@ -712,11 +762,13 @@ impl<T> NonViscousBodyRow<T> {
             pivot_friction,
             ground_drag,
             pivot_coulomb,
+            pivot_excess,
             pivot_quadratic,
             ground_quadratic,
         } = self;
         [
             rest,
+            stribeck_rate,
             friction_width,
             drag_width,
             body_mass,
@@ -733,6 +785,7 @@ impl<T> NonViscousBodyRow<T> {
             pivot_friction,
             ground_drag,
             pivot_coulomb,
+            pivot_excess,
             pivot_quadratic,
             ground_quadratic,
         ]

@@ -62,7 +62,7 @@ pub(crate) struct PrescribedEquations;
 
 #[allow(clippy::many_single_char_names, clippy::possible_missing_comma)]
 impl ::branched_pendulum::tree::LinkEquations for PrescribedEquations {
-    type Constants<T: ::branched_pendulum::Scalar> = [T; 17];
+    type Constants<T: ::branched_pendulum::Scalar> = [T; 19];
     type Response<T: ::branched_pendulum::Scalar> = [T; 6];
     type Sums<T: ::branched_pendulum::Scalar> = [T; 10];
     type Elimination<T: ::branched_pendulum::Scalar> = [T; 3];
@@ -77,7 +77,7 @@ impl ::branched_pendulum::tree::LinkEquations for PrescribedEquations {
     /// The response of a link without children: N and γ, and the torque of its joint on
     /// the parent where joints have torques.
     ///
-    /// Cost: 27 ×, 16 ±, 1 ÷, 2 √; 10 of the ± can be fused with a × if the scalar
+    /// Cost: 31 ×, 18 ±, 1 ÷, 2 √; 11 of the ± can be fused with a × if the scalar
     /// supports it.
     #[inline(always)]
     fn leaf<T: ::branched_pendulum::Scalar>(
@@ -86,8 +86,8 @@ impl ::branched_pendulum::tree::LinkEquations for PrescribedEquations {
     ) -> Self::Response<T> {
         let [
             _, moment, lateral_moment, _, inverse_inertia, _, _, friction, drag, spring,
-            rest, coulomb, quadratic_friction, friction_width, quadratic_drag, drag_width,
-            _,
+            rest, coulomb, quadratic_friction, static_excess, stribeck_rate,
+            friction_width, quadratic_drag, drag_width, _,
         ] = *constants;
         let ::branched_pendulum::tree::LinkMotion {
             sine,
@@ -98,12 +98,22 @@ impl ::branched_pendulum::tree::LinkEquations for PrescribedEquations {
             outside_torque,
             prescribed,
         } = link;
+        let joint_rate_squared = joint_rate * joint_rate;
         let speed_joint = friction_width
-            .mul_add(friction_width, joint_rate * joint_rate)
+            .mul_add(friction_width, joint_rate_squared)
             .sqrt();
+        let stribeck_rate_squared = stribeck_rate * stribeck_rate;
+        let stribeck_speed_squared_joint = stribeck_rate_squared + joint_rate_squared;
         let joint_torque = friction * joint_rate;
         let joint_torque = quadratic_friction
-            .mul_add(speed_joint, coulomb / speed_joint)
+            .mul_add(
+                speed_joint,
+                static_excess
+                    .mul_add(
+                        stribeck_rate_squared,
+                        coulomb * stribeck_speed_squared_joint,
+                    ) / (stribeck_speed_squared_joint * speed_joint),
+            )
             .mul_add(joint_rate, joint_torque);
         let joint_torque = spring.mul_add(joint_angle - rest, joint_torque);
         let omega_squared = omega * omega;
@@ -137,7 +147,7 @@ impl ::branched_pendulum::tree::LinkEquations for PrescribedEquations {
         link: ::branched_pendulum::tree::LinkMotion<T>,
         response: Self::Response<T>,
     ) -> Self::Sums<T> {
-        let [_, _, _, _, _, along, across, _, _, _, _, _, _, _, _, _, _] = *constants;
+        let [_, _, _, _, _, along, across, _, _, _, _, _, _, _, _, _, _, _, _] = *constants;
         let ::branched_pendulum::tree::LinkMotion { sine, cosine, omega, .. } = link;
         let [
             deficit_xx_child, deficit_xy_child, deficit_yy_child, bias_force_x_child,
@@ -186,7 +196,7 @@ impl ::branched_pendulum::tree::LinkEquations for PrescribedEquations {
 
     /// The response of a link with children, and b/J and κ/J, which `accelerate` takes.
     ///
-    /// Cost: 31 ×, 31 ±, 2 ÷, 2 √; 14 of the ± can be fused with a × if the scalar
+    /// Cost: 35 ×, 33 ±, 2 ÷, 2 √; 15 of the ± can be fused with a × if the scalar
     /// supports it.
     #[inline(always)]
     fn inner<T: ::branched_pendulum::Scalar>(
@@ -196,8 +206,8 @@ impl ::branched_pendulum::tree::LinkEquations for PrescribedEquations {
     ) -> (Self::Response<T>, Self::Elimination<T>) {
         let [
             inertia, moment, lateral_moment, mass, _, _, _, friction, drag, spring, rest,
-            coulomb, quadratic_friction, friction_width, quadratic_drag, drag_width,
-            drive_torque,
+            coulomb, quadratic_friction, static_excess, stribeck_rate, friction_width,
+            quadratic_drag, drag_width, drive_torque,
         ] = *constants;
         let ::branched_pendulum::tree::LinkMotion {
             sine,
@@ -214,12 +224,22 @@ impl ::branched_pendulum::tree::LinkEquations for PrescribedEquations {
             joint_torque_below,
         ] = below;
         let one = T::from_f64(1.0);
+        let joint_rate_squared = joint_rate * joint_rate;
         let speed_joint = friction_width
-            .mul_add(friction_width, joint_rate * joint_rate)
+            .mul_add(friction_width, joint_rate_squared)
             .sqrt();
+        let stribeck_rate_squared = stribeck_rate * stribeck_rate;
+        let stribeck_speed_squared_joint = stribeck_rate_squared + joint_rate_squared;
         let joint_torque = friction * joint_rate;
         let joint_torque = quadratic_friction
-            .mul_add(speed_joint, coulomb / speed_joint)
+            .mul_add(
+                speed_joint,
+                static_excess
+                    .mul_add(
+                        stribeck_rate_squared,
+                        coulomb * stribeck_speed_squared_joint,
+                    ) / (stribeck_speed_squared_joint * speed_joint),
+            )
             .mul_add(joint_rate, joint_torque);
         let joint_torque = spring.mul_add(joint_angle - rest, joint_torque);
         let omega_squared = omega * omega;
@@ -276,7 +296,7 @@ impl ::branched_pendulum::tree::LinkEquations for PrescribedEquations {
         link: ::branched_pendulum::tree::LinkMotion<T>,
         carried: Self::Carried<T>,
     ) -> [T; 2] {
-        let [_, _, _, _, _, along, across, _, _, _, _, _, _, _, _, _, _] = *constants;
+        let [_, _, _, _, _, along, across, _, _, _, _, _, _, _, _, _, _, _, _] = *constants;
         let _ = link;
         let [gravity_x, gravity_y, end_x, end_y] = carried;
         [
@@ -332,7 +352,7 @@ impl ::branched_pendulum::tree::LinkEquations for PrescribedEquations {
 
     /// The angular acceleration (in rad/s²) of a link without children.
     ///
-    /// Cost: 25 ×, 18 ±, 1 ÷, 2 √; 10 of the ± can be fused with a × if the scalar
+    /// Cost: 29 ×, 20 ±, 1 ÷, 2 √; 11 of the ± can be fused with a × if the scalar
     /// supports it.
     #[inline(always)]
     fn accelerate_leaf<T: ::branched_pendulum::Scalar>(
@@ -342,8 +362,8 @@ impl ::branched_pendulum::tree::LinkEquations for PrescribedEquations {
     ) -> T {
         let [
             inertia, moment, lateral_moment, _, inverse_inertia, _, _, friction, drag,
-            spring, rest, coulomb, quadratic_friction, friction_width, quadratic_drag,
-            drag_width, _,
+            spring, rest, coulomb, quadratic_friction, static_excess, stribeck_rate,
+            friction_width, quadratic_drag, drag_width, _,
         ] = *constants;
         let ::branched_pendulum::tree::LinkMotion {
             sine,
@@ -355,12 +375,22 @@ impl ::branched_pendulum::tree::LinkEquations for PrescribedEquations {
             prescribed,
         } = link;
         let [gravity_x, gravity_y] = pivot;
+        let joint_rate_squared = joint_rate * joint_rate;
         let speed_joint = friction_width
-            .mul_add(friction_width, joint_rate * joint_rate)
+            .mul_add(friction_width, joint_rate_squared)
             .sqrt();
+        let stribeck_rate_squared = stribeck_rate * stribeck_rate;
+        let stribeck_speed_squared_joint = stribeck_rate_squared + joint_rate_squared;
         let joint_torque = friction * joint_rate;
         let joint_torque = quadratic_friction
-            .mul_add(speed_joint, coulomb / speed_joint)
+            .mul_add(
+                speed_joint,
+                static_excess
+                    .mul_add(
+                        stribeck_rate_squared,
+                        coulomb * stribeck_speed_squared_joint,
+                    ) / (stribeck_speed_squared_joint * speed_joint),
+            )
             .mul_add(joint_rate, joint_torque);
         let joint_torque = spring.mul_add(joint_angle - rest, joint_torque);
         let omega_squared = omega * omega;
@@ -413,6 +443,10 @@ pub(crate) struct PrescribedRow<T> {
     pub(crate) coulomb: T,
     /// Quadratic friction in the pivot over m l².
     pub(crate) quadratic_friction: T,
+    /// Excess of static over Coulomb friction over m l².
+    pub(crate) static_excess: T,
+    /// Stribeck rate of friction in the pivot, rad/s.
+    pub(crate) stribeck_rate: T,
     /// Width of friction in the pivot, rad/s.
     pub(crate) friction_width: T,
     /// Quadratic drag over m l².
@@ -425,7 +459,7 @@ pub(crate) struct PrescribedRow<T> {
 
 impl<T> PrescribedRow<T> {
     /// Returns the constants in the order of the columns.
-    pub(crate) fn into_array(self) -> [T; 17] {
+    pub(crate) fn into_array(self) -> [T; 19] {
         let Self {
             inertia,
             moment,
@@ -440,6 +474,8 @@ impl<T> PrescribedRow<T> {
             rest,
             coulomb,
             quadratic_friction,
+            static_excess,
+            stribeck_rate,
             friction_width,
             quadratic_drag,
             drag_width,
@@ -459,6 +495,8 @@ impl<T> PrescribedRow<T> {
             rest,
             coulomb,
             quadratic_friction,
+            static_excess,
+            stribeck_rate,
             friction_width,
             quadratic_drag,
             drag_width,

@@ -35,6 +35,15 @@ pub(super) const MISTAKES: &[Mistake] = &[
 ])] struct Pendulum;",
     ),
     (
+        "static_friction",
+        "#[branched_pendulum(gravity = 9.8, a: rod(mass = 1, length = 1,
+    friction(coulomb = 0.2, static = 0.1, stribeck = 1)) [
+    b: rod(mass = 1, length = 1, friction(static = 0.1)),
+    c: rod(mass = 1, length = 1, friction(coulomb = 0.1, stribeck = 1)),
+    d: rod(mass = 1, length = 1, drag(static = 1)),
+], between(b, c, friction(coulomb = 1, static = 0.5, stribeck = 1)))] struct Pendulum;",
+    ),
+    (
         "division_by_zero",
         "#[branched_pendulum(gravity = 9.8, a: rod(mass = 1 / (1 - 1), length = 0^-1))] struct Pendulum;",
     ),

@@ -24,7 +24,8 @@ const TREES: [&str; 11] = [
      drive(y = 0.01 * cos(6 * t), x = 0.02 * sin(2 * t + 0.3) * cos(t))",
     "gravity = 9.80665,
      limb(mass = 0.4, com = (0.2, 0.03), inertia = 2e-3, joint = 0.5,
-         friction(viscous = 1e-3, coulomb = 0.05, quadratic = 2e-3, width = 0.3)) [
+         friction(viscous = 1e-3, coulomb = 0.05, static = 0.07, stribeck = 0.6,
+             quadratic = 2e-3, width = 0.3)) [
          twig: rod(mass = 0.1, length = 0.3, at = (0.4, 0.05), drag(quadratic = 1e-3)) * 2,
          leaf: rod(mass = 0.05, length = 0.2, spring = 0.02, friction(coulomb = 0.01)),
      ]",

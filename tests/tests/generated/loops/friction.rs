@@ -1,4 +1,4 @@
-//! Coulomb and quadratic friction and drag in loops.
+//! Coulomb, Stribeck and quadratic friction and drag in loops.
 
 use branched_pendulum::Pendulum;
 use branched_pendulum::prelude::*;
@@ -8,7 +8,8 @@ use super::{Powered, agree, array, balance, pair, powered};
 pair!(BrakedLoops, BrakedUnrolled, BRAKED:
     tree: generations(count = 5, branching = 2, shape = rod, mass = 0.2, length = 0.3,
         mass_ratio = 0.5, length_ratio = 0.7, friction_ratio = 0.3, drag_ratio = 0.2,
-        friction(viscous = 1e-4, coulomb = 2e-2, quadratic = 1e-4, width = 0.5),
+        friction(viscous = 1e-4, coulomb = 2e-2, static = 3e-2, stribeck = 2, quadratic = 1e-4,
+            width = 0.5),
         drag(quadratic = 1e-4)),
     drive(torque = 0.4 * cos(3 * t), x = 0.2 * sin(5 * t), y = 0.1 * cos(4 * t))
 );

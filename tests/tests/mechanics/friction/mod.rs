@@ -1,4 +1,4 @@
-//! Coulomb and quadratic friction and drag, against the Cartesian derivation, differences
+//! Coulomb, Stribeck and quadratic friction and drag, against the Cartesian derivation, differences
 //! of the energy, and laws written out by hand.
 
 mod motion;
@@ -49,6 +49,7 @@ fn the_samples_are_rich() {
         links().filter(has).count() as f64 / total
     };
     assert!(share(|link| link.laws[0].coulomb > 0.0) > 0.2);
+    assert!(share(|link| link.laws[0].excess > 0.0) > 0.1);
     assert!(share(|link| link.laws[0].quadratic > 0.0) > 0.2);
     assert!(share(|link| link.laws[1].quadratic > 0.0) > 0.2);
     assert!(share(|link| link.laws[0].coulomb > 0.0 && link.laws[0].quadratic > 0.0) > 0.1);

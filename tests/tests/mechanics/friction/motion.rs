@@ -1,5 +1,7 @@
 //! Trajectories with friction: energy, Taylor series, small differences, sectors.
 
+use std::f64::consts::PI;
+
 use branched_pendulum::Transverse;
 use branched_pendulum::prelude::*;
 use branched_pendulum::scalar::Dual;
@@ -12,8 +14,8 @@ use crate::support::compile;
 #[branched_pendulum(
     gravity = 9.80665,
     arm: rod(mass = 0.3, length = 0.4,
-        friction(viscous = viscous_arm, coulomb = coulomb_arm, quadratic = quadratic_arm,
-            width = width)) [
+        friction(viscous = viscous_arm, coulomb = coulomb_arm, static = static_arm,
+            stribeck = stribeck, quadratic = quadratic_arm, width = width)) [
         hand: rod(mass = 0.1, length = 0.3,
             friction(viscous = viscous_hand, coulomb = coulomb_hand, quadratic = quadratic_hand,
                 width = width),
@@ -26,6 +28,8 @@ struct Chain;
 const PARAMETERS: ChainParameters<f64> = ChainParameters {
     viscous_arm: 1e-4,
     coulomb_arm: 2e-3,
+    static_arm: 3e-3,
+    stribeck: 0.4,
     quadratic_arm: 1e-4,
     width: 0.1,
     viscous_hand: 2e-4,
@@ -48,6 +52,8 @@ fn compiled_code_is_what_the_interpreter_computes() {
         .map(|parameter| match parameter.name.as_str() {
             "viscous_arm" => PARAMETERS.viscous_arm,
             "coulomb_arm" => PARAMETERS.coulomb_arm,
+            "static_arm" => PARAMETERS.static_arm,
+            "stribeck" => PARAMETERS.stribeck,
             "quadratic_arm" => PARAMETERS.quadratic_arm,
             "width" => PARAMETERS.width,
             "viscous_hand" => PARAMETERS.viscous_hand,
@@ -106,6 +112,52 @@ fn taylor_series_agree_with_dop853() {
     }
 }
 
+/// A rod that a hand swings to and fro.
+#[branched_pendulum(
+    gravity = 9.80665,
+    rod: rod(mass = 0.2, length = 0.3,
+        friction(coulomb = 0.02, static = breakaway, stribeck = 1.5, width = 0.1)),
+    prescribed(rod),
+    emit(energies),
+)]
+struct Swung;
+
+/// The loop that the torque of a hand describes against the angle has the area ∮ D dθ, which
+/// is the work of friction by its law. The work grows with the static friction; if that equals
+/// the Coulomb friction, the law is Coulomb's.
+#[test]
+fn the_loop_of_a_driven_joint_has_the_area_of_its_law() {
+    let (width, pace, samples) = (0.4_f64, 5.0_f64, 4000);
+    let period = 2.0 * PI / pace;
+    let mut areas = Vec::new();
+    for breakaway in [0.02, 0.03, 0.05] {
+        let model = Swung::new(SwungParameters { breakaway }).expect("friction is positive");
+        let (mut area, mut expected) = (0.0, 0.0);
+        for sample in 0..samples {
+            let time = period * f64::from(sample) / f64::from(samples);
+            let (sine, cosine) = (pace * time).sin_cos();
+            let (theta, omega) = ([width * sine], [width * pace * cosine]);
+            let alpha = [-width * pace * pace * sine];
+            let (_, [torque]) = model.accelerations_prescribed_rod(&theta, &omega, &[0.0], &alpha);
+            area += torque * omega[0] * period / f64::from(samples);
+            let rate = omega[0];
+            let excess = (breakaway - 0.02) / (1.0 + (rate / 1.5).powi(2));
+            let law = (0.02 + excess) * rate / rate.hypot(0.1);
+            expected += law * rate * period / f64::from(samples);
+            let power = model.friction_power(&omega);
+            assert!((power + law * rate).abs() < 1e-15, "{power} {law}");
+        }
+        assert!((area - expected).abs() < 1e-13, "{area} {expected}");
+        areas.push(area);
+    }
+    assert!(areas.is_sorted() && areas[2] > 1.2 * areas[0], "{areas:?}");
+    // Sharp friction would take 4 C times the amplitude.
+    assert!(
+        (areas[0] / (4.0 * 0.02 * width) - 1.0).abs() < 0.05,
+        "{areas:?}"
+    );
+}
+
 /// Parameters are generic in the scalar: slopes by dual numbers are differences of the
 /// accelerations of neighbouring models.
 #[test]
@@ -122,6 +174,8 @@ fn parameters_have_slopes() {
         let with = |h: f64| {
             let model = Chain::new(ChainParameters {
                 coulomb_arm: PARAMETERS.coulomb_arm + h,
+                static_arm: PARAMETERS.static_arm - 2.0 * h,
+                stribeck: PARAMETERS.stribeck + 3.0 * h,
                 width: PARAMETERS.width - h,
                 quadratic_hand: PARAMETERS.quadratic_hand + 2.0 * h,
                 ..PARAMETERS
@@ -132,6 +186,8 @@ fn parameters_have_slopes() {
         let model = Chain::<Dual<f64, 1>>::from_parameters_unchecked(ChainParameters {
             viscous_arm: dual(PARAMETERS.viscous_arm, 0.0),
             coulomb_arm: dual(PARAMETERS.coulomb_arm, 1.0),
+            static_arm: dual(PARAMETERS.static_arm, -2.0),
+            stribeck: dual(PARAMETERS.stribeck, 3.0),
             quadratic_arm: dual(PARAMETERS.quadratic_arm, 0.0),
             width: dual(PARAMETERS.width, -1.0),
             viscous_hand: dual(PARAMETERS.viscous_hand, 0.0),
@@ -159,7 +215,8 @@ macro_rules! crown {
             gravity = 9.80665,
             trunk: rod(mass = 0.4, length = 0.5, friction(coulomb = 1e-3)) [
                 arm(mass = 0.2, com = (0.1, 0.02), inertia = 1.5e-3, joint = (0.25, -0.03),
-                    friction(viscous = 2e-3, coulomb = 4e-3, quadratic = 1e-4, width = 0.2),
+                    friction(viscous = 2e-3, coulomb = 4e-3, static = 7e-3, stribeck = 0.5,
+                        quadratic = 1e-4, width = 0.2),
                     drag(quadratic = 3e-4)) [
                     hand: rod(mass = 0.05, length = 0.12,
                         friction(coulomb = 1e-4), drag(quadratic = 1e-5)) * 2
@@ -180,22 +237,26 @@ const WEIGHTS: [[f64; 7]; 2] = [
     [0.0, 0.0, 1.0, -1.0, 0.0, 0.0, 0.0],
 ];
 
-/// dD/dw of (C/s + q s) w.
-fn slope([coulomb, quadratic, width]: [f64; 3], rate: f64) -> f64 {
+/// dD/dw of (A/s + q s) w, A = C + ΔC/(1 + (w/ϖ)²).
+fn slope([coulomb, quadratic, width, excess, stribeck]: [f64; 5], rate: f64) -> f64 {
     let speed = rate.hypot(width);
-    coulomb * width * width / speed.powi(3) + quadratic * (speed + rate * rate / speed)
+    let sum = 1.0 + (rate / stribeck).powi(2);
+    let fall = -2.0 * excess * rate / (stribeck * sum).powi(2);
+    (coulomb + excess / sum) * width * width / speed.powi(3)
+        + fall * rate / speed
+        + quadratic * (speed + rate * rate / speed)
 }
 
 /// −Σ (c + D′) (rate of the joint)² + D⁰′ (rate of the link)² over the copies under one link.
 fn power_by_hand(sector: usize, omega: &[f64; 3], rate: &[f64]) -> f64 {
     let [trunk, arm, hand] = *omega;
     let joints = [
-        2e-3 + slope([4e-3, 1e-4, 0.2], arm - trunk),
-        slope([1e-4, 0.0, 0.01], hand - arm),
+        2e-3 + slope([4e-3, 1e-4, 0.2, 3e-3, 0.5], arm - trunk),
+        slope([1e-4, 0.0, 0.01, 0.0, 1.0], hand - arm),
     ];
     let ground = [
-        slope([0.0, 3e-4, 0.01], arm),
-        slope([0.0, 1e-5, 0.01], hand),
+        slope([0.0, 3e-4, 0.01, 0.0, 1.0], arm),
+        slope([0.0, 1e-5, 0.01, 0.0, 1.0], hand),
     ];
     let of_arm = |arm: f64| 2.0 * (joints[0] + ground[0]) * arm * arm;
     let of_hands = |copies: f64, arm: f64, hand: f64| {

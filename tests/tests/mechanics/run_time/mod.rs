@@ -109,7 +109,8 @@ fn linear_modes_agree_with_the_derived_matrices() {
 fn rough_trees_agree_with_their_programs() {
     let text = "gravity = 9.80665,
         limb(mass = 0.4, com = (0.2, 0.03), inertia = 2e-3, joint = 0.5,
-            friction(viscous = 1e-3, coulomb = 0.05, quadratic = 2e-3, width = 0.3)) [
+            friction(viscous = 1e-3, coulomb = 0.05, static = 0.08, stribeck = 0.7,
+                quadratic = 2e-3, width = 0.3)) [
             twig: rod(mass = 0.1, length = 0.3, at = (0.4, 0.05), drag(quadratic = 1e-3)) * 2,
             leaf: rod(mass = 0.05, length = 0.2, spring = 0.02, friction(coulomb = 0.01)),
         ]";

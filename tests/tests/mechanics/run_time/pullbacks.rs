@@ -97,8 +97,8 @@ fn pullbacks_of_other_forms_are_transposed_tangents() {
          drive(x = b * sin(3 * t), y = 0.02 * cos(p * t))",
         "gravity = g, rod: rod(mass = m, length = l, friction = f), drive(torque = b * sin(w * t), \
          x = b * cos(t))",
-        "gravity = g, rod: rod(mass = m, length = 1, friction(viscous = f, coulomb = c, quadratic = q, \
-         width = w), drag(viscous = d, quadratic = q, width = w / 2))",
+        "gravity = g, rod: rod(mass = m, length = 1, friction(viscous = f, coulomb = c, static = c + s, \
+         stribeck = v, quadratic = q, width = w), drag(viscous = d, quadratic = q, width = w / 2))",
     ] {
         for _ in 0..10 {
             compare(text, &mut random, &mut worst);

@@ -149,7 +149,7 @@ fn energy_is_balanced_in_every_form() {
     // What friction takes.
     let braked = text.replace(
         "rest = 0.4)",
-        "rest = 0.4, friction(viscous = 1e-3, coulomb = 0.02, width = 0.3))",
+        "rest = 0.4, friction(viscous = 1e-3, coulomb = 0.02, static = 0.03, stribeck = 1.1, width = 0.3))",
     );
     let tree = PendulumTree::parse(&braked).unwrap();
     let system = WithLoss(&tree);

@@ -52,7 +52,7 @@ const TREES: [(&str, &[usize]); 14] = [
     // Friction that is not viscous.
     (
         "trunk: rod(mass = 0.4, length = 0.3, friction(coulomb = 1e-3)) [
-            arm: rod(mass = 0.2, length = 0.2, friction(coulomb = 2e-3, width = 0.5), \
+            arm: rod(mass = 0.2, length = 0.2, friction(coulomb = 2e-3, static = 3e-3, stribeck = 0.6, width = 0.5), \
                 drag(quadratic = 1e-3)) [
                 hand: rod(mass = 0.1, length = 0.15, friction(quadratic = 2e-3, width = 0.3))
             ] * 3

@@ -16,9 +16,11 @@ pub(crate) const BENT: &str = "gravity = 9.80665,
             twig: rod(mass = m, length = 0.3, drag = 1e-4) * 2
         ],
         shoot(mass = 0.05, com = 0.1, inertia = 1e-4,
-            friction(viscous = 1e-3, coulomb = 0.02, quadratic = 1e-3), drag(quadratic = 1e-4)),
+            friction(viscous = 1e-3, coulomb = 0.02, static = 0.03, stribeck = 0.8,
+            quadratic = 1e-3), drag(quadratic = 1e-4)),
     ],
-    between(twig_2, shoot, spring = 0.3, rest = 0.2, friction(coulomb = 0.02, viscous = 2e-3)),
+    between(twig_2, shoot, spring = 0.3, rest = 0.2,
+        friction(coulomb = 0.02, static = 0.05, stribeck = 0.3, viscous = 2e-3)),
     siblings(twig, spring = 0.1, friction = 1e-3),
     drive(torque = 0.01 * cos(3 * t), x = 0.02 * sin(2 * t)^2)";
 

@@ -9,7 +9,7 @@ const RULE: &str = "gravity = 9.81,
     trunk(mass = 0.3, com = (0.1, 0.02), inertia = 2e-3, friction = 1e-3, drag = 2e-4) [
         bough(mass = 0.1, com = (0.12, -0.01), inertia = 1e-3, at = (0.3, 0.05),
             joint = (0.2, 0.01), spring = 0.2, rest = 0.1,
-            friction(viscous = 1e-3, coulomb = 0.02, quadratic = 1e-3)) [
+            friction(viscous = 1e-3, coulomb = 0.02, static = 0.04, stribeck = 2, quadratic = 1e-3)) [
             twig: rod(mass = 0.04, length = 0.2, drag(viscous = 1e-4, quadratic = 1e-4)) * 3
         ] * 2
     ],

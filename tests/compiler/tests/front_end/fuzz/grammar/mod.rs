@@ -344,7 +344,9 @@ fn law(name: &str, value: &str, links: usize) -> String {
     match (name, (value.len() + links) % 6) {
         (_, 0) => format!("{name}(viscous = {value}, quadratic = {value})"),
         (_, 1) => format!("{name}(quadratic = {value}, width = 0.1)"),
-        ("friction", 2) => format!("friction(coulomb = {value}, width = w)"),
+        ("friction", 2) => {
+            format!("friction(coulomb = {value}, static = 2, stribeck = {value}, width = w)")
+        }
         ("friction", 3) => format!("friction(coulomb = 1, quadratic = {value}, viscous = 2,)"),
         _ => format!("{name} = {value}"),
     }
