@@ -85,7 +85,7 @@ use skeleton::{ByGeneration, ByLink, Skeleton};
 
 /// Number of links from which on a tree is computed on all cores, unless [`Tree::set_threads`] sets
 /// the number of threads. For fewer links, starting threads takes longer than they save.
-pub const THREADED: usize = 1 << 17;
+pub const THREADED: usize = 1 << 19;
 
 /// A large tree: its topology and constants, with the equations `E` of its links. Emitted models
 /// contain one.
