@@ -28,3 +28,14 @@ pub struct Rods;
         mass_ratio = 0.5, length_ratio = 0.7),
 )]
 pub struct ThirtyOneRods;
+
+/// A reed: three rods on stiff springs, with friction that damps them within milliseconds.
+#[branched_pendulum(
+    gravity = 9.80665,
+    low: rod(mass = 0.05, length = 0.1, spring = 2e3, friction = 2) [
+        middle: rod(mass = 0.02, length = 0.1, spring = 1e3, friction = 1) [
+            top: rod(mass = 0.01, length = 0.1, friction = 1e-4)
+        ]
+    ],
+)]
+pub struct Reed;
