@@ -7,6 +7,9 @@ use core::fmt::{self, Display, Formatter};
 
 use crate::scalar::Scalar;
 
+/// Number of constants of a [`FrictionLaw`].
+pub const LAW_CONSTANTS: usize = 5;
+
 /// Law of non-viscous friction: the torque (A/s + q s) w against the rate w, with the smoothed
 /// speed s = √(w² + ε²) and A = C + ΔC ϖ²/(ϖ² + w²).
 ///
@@ -41,7 +44,9 @@ pub struct FrictionLaw<T> {
 
 impl<T> FrictionLaw<T> {
     /// Creates the law from the constants C (N m), q (N m s²), ε (rad/s), ΔC (N m) and ϖ (rad/s).
-    pub const fn of_constants([coulomb, quadratic, width, excess, stribeck]: [T; 5]) -> Self
+    pub const fn of_constants(
+        [coulomb, quadratic, width, excess, stribeck]: [T; LAW_CONSTANTS],
+    ) -> Self
     where
         T: Copy,
     {
@@ -55,7 +60,7 @@ impl<T> FrictionLaw<T> {
     }
 
     /// Returns the constants in the order of [`of_constants`](Self::of_constants).
-    pub fn into_constants(self) -> [T; 5] {
+    pub fn into_constants(self) -> [T; LAW_CONSTANTS] {
         let Self {
             coulomb,
             quadratic,

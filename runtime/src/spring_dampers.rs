@@ -236,6 +236,12 @@ impl<T: Scalar> SpringDampers<T> {
         self.runs.iter().flat_map(|run| run.each())
     }
 
+    /// Returns the runs of spring-dampers with the same constants, each as its spring-dampers one by
+    /// one.
+    pub(crate) fn runs(&self) -> impl Iterator<Item = impl Iterator<Item = SpringDamper<T>>> {
+        self.runs.iter().map(|run| run.each())
+    }
+
     /// Returns the first spring-damper of each run.
     pub(crate) fn first_of_runs(&self) -> impl Iterator<Item = &SpringDamper<T>> {
         self.runs.iter().map(|run| &run.first)

@@ -280,10 +280,22 @@ impl<T: Scalar> TranslationalSpringDamper<T> {
     /// Returns the selected force along the line, divided by the line's length.
     #[inline(always)]
     pub(super) fn pull<V: Simd<T>>(&self, line: &Line<V>, pull: Pull) -> Option<V> {
-        let mut sum: Option<V> = None;
+        self.pull_in(V::splat, line, pull)
+    }
+
+    /// Returns the selected force along the line, divided by the line's length. `convert` converts
+    /// the constants to the scalar of the line, in their order.
+    #[inline(always)]
+    fn pull_in<S: Scalar>(
+        &self,
+        convert: impl Fn(T) -> S,
+        line: &Line<S>,
+        pull: Pull,
+    ) -> Option<S> {
+        let mut sum: Option<S> = None;
         if pull != Pull::OfDamper {
             for own in &self.potentials {
-                let own = own.map(V::splat).pull(line);
+                let own = own.map(&convert).pull(line);
                 sum = Some(match sum {
                     Some(sum) => sum + own,
                     None => own,
@@ -293,7 +305,7 @@ impl<T: Scalar> TranslationalSpringDamper<T> {
         match self.friction {
             Some(friction) if pull != Pull::OfEnergy => {
                 let stretching = dot(line.offset, line.rate);
-                let own = V::splat(friction) * stretching / line.square();
+                let own = convert(friction) * stretching / line.square();
                 Some(match sum {
                     Some(sum) => sum + own,
                     None => own,
@@ -305,11 +317,16 @@ impl<T: Scalar> TranslationalSpringDamper<T> {
 
     /// Returns the force that pulls the two points together (N), divided by the length of the line
     /// (m): `offset` is the vector from the first point to the second (m), `rate` its rate of change
-    /// (m/s).
-    #[must_use]
-    pub fn force_over_length(&self, offset: [T; 2], rate: [T; 2]) -> T {
-        let force = self.pull::<T>(&Line { offset, rate }, Pull::Whole);
-        force.unwrap_or(T::from_f64(0.0))
+    /// (m/s). `convert` converts the constants of the force to their scalar, in the order of
+    /// [`map`](Self::map).
+    pub(crate) fn force_over_length<S: Scalar>(
+        &self,
+        convert: impl Fn(T) -> S,
+        offset: [S; 2],
+        rate: [S; 2],
+    ) -> S {
+        let force = self.pull_in(convert, &Line { offset, rate }, Pull::Whole);
+        force.unwrap_or(S::from_f64(0.0))
     }
 
     /// Returns the force that has a potential energy, divided by the length of the line; `offset`

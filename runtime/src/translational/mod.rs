@@ -146,6 +146,17 @@ impl<T: Scalar> TranslationalSpringDampers<T> {
         self.runs.is_empty() && self.links == links
     }
 
+    /// Returns the number of links of the tree.
+    pub(crate) fn links(&self) -> usize {
+        self.links
+    }
+
+    /// Returns the runs of lines with the same constants: the first line of each, and the number of
+    /// its lines. In each line of a run all link indices are larger by one than in the line before.
+    pub(crate) fn runs(&self) -> impl Iterator<Item = (&TranslationalSpringDamper<T>, usize)> {
+        self.runs.iter().map(|run| (&run.first, run.count))
+    }
+
     /// Returns the lines one by one.
     pub fn iter(&self) -> impl Iterator<Item = TranslationalSpringDamper<T>> {
         let runs = self.runs.iter();

@@ -46,6 +46,7 @@ mod plan;
 mod prefetch;
 mod prescribed;
 mod properties;
+mod pullback;
 mod root;
 mod scales;
 mod shape;
@@ -66,6 +67,10 @@ pub use crate::system::LinkName;
 pub use bodies::{Bodies, BodyEquations, LinkSlopes, PointEquations};
 pub use equations::{LinkEquations, LinkMotion, Row};
 pub use properties::PropertyTable;
+pub use pullback::{
+    ParameterSlopes, PassiveLink, PivotDrive, PullbackTree, StateSlopes, VirtualMotion,
+    VirtualPower, WeightedState,
+};
 pub use root::RootDrive;
 pub use scales::{MOST_GENERATIONS, ScaleEquations, ScaleTree};
 pub use shape::Shape;
@@ -197,6 +202,13 @@ impl<E: LinkEquations, T: Scalar> Tree<E, T> {
         alpha: &mut [T],
     ) {
         self.accelerations_with(&mut Workspace::new(), drive, theta, omega, alpha);
+    }
+
+    /// Returns the same tree with a root that is not accelerated and with zeros in some `columns` of
+    /// constants; if these hold the torques of joints and of drag, the tree without gravity, springs
+    /// and friction. It has no springs and dampers between its links.
+    pub(super) fn inertia_alone(&self, columns: &[usize]) -> Self {
+        Self::of_skeleton(self.skeleton.at_rest_without(columns))
     }
 
     /// Returns the same tree with constants of another scalar type and the same number of threads.

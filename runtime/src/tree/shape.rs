@@ -45,70 +45,53 @@ impl Shape {
 
     /// Iterates over the links from the root to the leaves, strip by strip (runs of neighbours).
     #[inline(always)]
-    pub(super) fn strips(&self) -> StripWalk<'_> {
-        StripWalk {
-            shape: self,
-            link: 0,
-            generation: 0,
-            copy: 0,
-            above: (0, 1),
-            start: 0,
-        }
-    }
-}
-
-/// Iterator over all links from the root to the leaves, several neighbours at a time.
-pub(super) struct StripWalk<'a> {
-    shape: &'a Shape,
-    /// Index of the next link, its generation, and its number among the copies under its parent.
-    link: usize,
-    generation: usize,
-    copy: usize,
-    /// Index of the first link of the generation before, and its number of links.
-    above: (usize, usize),
-    /// First link of this generation.
-    start: usize,
-}
-
-impl Iterator for StripWalk<'_> {
-    type Item = Neighbours;
-
-    #[inline(always)]
-    fn next(&mut self) -> Option<Neighbours> {
-        let link = self.link;
-        let copies = match self.shape {
-            Shape::Parents(parents) => return self.listed(parents),
-            Shape::Shared(parents) => return self.listed(parents),
-            Shape::Generations(copies) => copies,
+    pub(super) fn strips(&self) -> impl DoubleEndedIterator<Item = Neighbours> {
+        let strips = match self {
+            Self::Parents(parents) => parents.len(),
+            Self::Shared(parents) => parents.len(),
+            Self::Generations(copies) => copies.iter().sum(),
         };
-        while self.copy == *copies.get(self.generation)? {
-            self.above = (self.start, self.above.1 * self.copy);
-            (self.start, self.copy) = (link, 0);
-            self.generation += 1;
+        (0..strips).filter_map(|number| self.strip(number))
+    }
+
+    /// Returns the strip with this number, if it exists.
+    #[inline(always)]
+    fn strip(&self, number: usize) -> Option<Neighbours> {
+        let listed = |parents: &[u32]| {
+            let parent = *parents.get(number)? as usize;
+            Some(Neighbours {
+                link: number,
+                parent: (number > 0).then_some(parent),
+                count: 1,
+                row: number,
+            })
+        };
+        match self {
+            Self::Parents(parents) => listed(parents),
+            Self::Shared(parents) => listed(parents),
+            Self::Generations(copies) => strip_of_generations(copies, number),
         }
-        let (above, count) = self.above;
-        self.copy += 1;
-        self.link += count;
-        Some(Neighbours {
-            link,
-            parent: (self.generation > 0).then_some(above),
-            count,
-            row: self.generation,
-        })
     }
 }
 
-impl StripWalk<'_> {
-    #[inline(always)]
-    fn listed(&mut self, parents: &[u32]) -> Option<Neighbours> {
-        let link = self.link;
-        let parent = *parents.get(link)? as usize;
-        self.link += 1;
-        Some(Neighbours {
-            link,
-            parent: (link > 0).then_some(parent),
-            count: 1,
-            row: link,
-        })
+/// Returns the strip with this number in a tree by generations: the links of one generation that
+/// are the same copy under their parents. O(generations).
+fn strip_of_generations(copies: &[usize], number: usize) -> Option<Neighbours> {
+    let mut copy = number;
+    // First link of the generation before, its number of links, and first link of this one.
+    let (mut above, mut count, mut start) = (0, 1, 0);
+    for (generation, &copies) in copies.iter().enumerate() {
+        if copy < copies {
+            return Some(Neighbours {
+                link: start + copy * count,
+                parent: (generation > 0).then_some(above),
+                count,
+                row: generation,
+            });
+        }
+        copy -= copies;
+        count *= copies;
+        (above, start) = (start, start + count);
     }
+    None
 }

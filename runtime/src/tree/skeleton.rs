@@ -91,6 +91,28 @@ impl<T: Scalar> Skeleton<T> {
             .workspace_len::<T>(&self.plan, self.sizes, threads);
     }
 
+    /// Returns this tree with a root that is not accelerated and with zeros in some `columns` of
+    /// constants.
+    pub(super) fn at_rest_without(&self, columns: &[usize]) -> Self {
+        let zero = T::from_f64(0.0);
+        let mut own = self.clone();
+        own.root = [zero; 2];
+        let width = self.sizes.constants.max(1);
+        for numbers in [&mut own.constants, &mut own.of_states] {
+            let length = (numbers.len() / width).max(1);
+            for (place, number) in numbers.iter_mut().enumerate() {
+                let column = match self.sizes.by_link {
+                    true => place / length,
+                    false => place % width,
+                };
+                if columns.contains(&column) {
+                    *number = zero;
+                }
+            }
+        }
+        own
+    }
+
     /// Returns this tree with constants of another scalar type.
     pub(super) fn cast<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Skeleton<S> {
         let constants = [&self.constants, &self.of_states];

@@ -6,176 +6,72 @@ use branched_pendulum::friction::FrictionLaw;
 use branched_pendulum::scalar::{Double, Dual, Scalar};
 use branched_pendulum::spring_dampers::SpringDamper;
 use branched_pendulum::translational::TranslationalSpringDamper;
+use branched_pendulum::tree::{ParameterSlopes, PassiveLink, Shape, VirtualPower};
 use branched_pendulum_codegen::scene::{
     self, FrictionContact, LAW_CONSTANTS, PassiveTorques, Quantity, Scene,
 };
 
 use crate::between::Between;
 use crate::drive::Courses;
-use crate::numbers::{self, LinkNumbers, law};
+use crate::numbers::{self, LinkNumbers};
 use crate::tree::constant;
 
-/// Constants of one link. The torques that its joint and the ground exert are those of a spring with
-/// friction.
-#[derive(Clone, Debug)]
-pub(super) struct LinkConstants<T> {
-    pub(super) numbers: LinkNumbers<T>,
-    pub(super) joint: SpringDamper<T>,
-    pub(super) ground: SpringDamper<T>,
-}
-
-/// Constants of a tree.
-#[derive(Clone, Debug)]
-pub(super) struct Constants<T> {
-    pub(super) gravity: T,
-    pub(super) links: Vec<LinkConstants<T>>,
-    pub(super) springs: Vec<SpringDamper<T>>,
-    pub(super) lines: Vec<TranslationalSpringDamper<T>>,
-}
-
-impl<T: Scalar> LinkConstants<T> {
-    /// Creates the constants; the friction at a contact has a law if `laws` says so.
-    fn of(numbers: LinkNumbers<T>, laws: [bool; 2]) -> Self {
-        let PassiveTorques {
-            friction,
-            drag,
-            spring,
-            rest,
-            laws: given,
-        } = numbers.passive;
-        let [joint, ground] = FrictionContact::ALL
-            .map(|contact| laws[contact as usize].then(|| law(given[contact as usize])));
-        let zero = T::from_f64(0.0);
-        let passive =
-            |[spring, rest, friction]: [T; 3], law: Option<FrictionLaw<T>>| SpringDamper {
-                links: [0, 0],
-                spring,
-                rest,
-                friction,
-                law,
-            };
-        Self {
-            numbers,
-            joint: passive([spring, rest, friction], joint),
-            ground: passive([zero, zero, drag], ground),
-        }
-    }
-}
-
-impl<T: Scalar> Constants<T> {
-    /// Returns the constants of a tree for the values of its parameters.
-    pub(super) fn of_tree(scene: &Scene, values: &[f64]) -> Self {
-        let values: Vec<Double> = values.iter().copied().map(Double::from_f64).collect();
-        // No value of a parameter makes a law that is absent: NaN is not zero.
-        let any = vec![Double::from_f64(f64::NAN); values.len()];
-        let laws = numbers::links_as_given(scene, &any).into_iter().map(|own| {
-            let zero = Double::from_f64(0.0);
-            let laws = own.passive.laws.each_ref();
-            laws.map(|law| law.strengths().into_iter().any(|own| *own != zero))
-        });
-        let links = numbers::links_as_given(scene, &values);
-        let between = Between::of(scene, links.len(), &values).cast(constant);
-        let links = links.into_iter().zip(laws);
-        Self {
-            gravity: constant(numbers::value(&scene.gravity, &values)),
-            links: links
-                .map(|(link, laws)| LinkConstants::of(link.map(constant), laws))
-                .collect(),
-            springs: between.torsional.iter().collect(),
-            lines: between.translational.iter().collect(),
-        }
-    }
-}
-
-/// Derivatives of the constants of a tree by its parameters.
-#[derive(Clone, Debug)]
-pub(super) struct ParameterSlopes<T> {
-    pub(super) gravity: Slopes<T>,
-    pub(super) links: Vec<Slopes<T>>,
-    pub(super) springs: Vec<Slopes<T>>,
-    pub(super) lines: Vec<Slopes<T>>,
-}
-
-/// Derivatives of some constants by parameters, without those that are zero.
-#[derive(Clone, Debug)]
-pub(super) struct Slopes<T>(Vec<Slope<T>>);
-
-#[derive(Clone, Copy, Debug)]
-struct Slope<T> {
-    /// Index of the constant.
-    constant: usize,
-    parameter: usize,
-    slope: T,
-}
-
-impl<T: Scalar> Slopes<T> {
-    fn none() -> Self {
-        Self(Vec::new())
-    }
-
-    /// Adds the derivatives of constants by one parameter.
-    fn take(&mut self, parameter: usize, constants: impl IntoIterator<Item = Dual<Double, 1>>) {
-        let all = constants.into_iter().enumerate();
-        self.0.extend(all.filter_map(|(index, own)| {
-            let [slope] = own.tangents;
-            (slope != Double::from_f64(0.0)).then(|| Slope {
-                constant: index,
-                parameter,
-                slope: constant(slope),
-            })
-        }));
-    }
-
-    /// Adds to the derivatives by the parameters those that go through some constants, given the
-    /// derivatives by these.
-    pub(super) fn add(&self, by_constants: &[T], by_parameters: &mut [T]) {
-        for own in &self.0 {
-            if let (Some(sum), Some(&by)) = (
-                by_parameters.get_mut(own.parameter),
-                by_constants.get(own.constant),
-            ) {
-                *sum = *sum + by * own.slope;
-            }
-        }
-    }
-
-    /// Returns true if no constant depends on a parameter.
-    pub(super) fn is_empty(&self) -> bool {
-        self.0.is_empty()
-    }
-}
-
-impl<T: Scalar> ParameterSlopes<T> {
-    /// Returns the derivatives for the values of the parameters.
-    pub(super) fn of(scene: &Scene, values: &[f64]) -> Self {
-        let count = |of: usize| vec![Slopes::none(); of];
-        let values: Vec<Double> = values.iter().copied().map(Double::from_f64).collect();
-        let links = numbers::links_as_given(scene, &values).len();
-        let between = Between::of(scene, links, &values);
-        let mut slopes = Self {
-            gravity: Slopes::none(),
-            links: count(links),
-            springs: count(between.torsional.iter().count()),
-            lines: count(between.translational.iter().count()),
+/// Returns the virtual power of a tree for the values of its parameters, with the derivatives of its
+/// constants by these.
+pub(super) fn virtual_power<T: Scalar>(scene: &Scene, values: &[f64]) -> VirtualPower<T> {
+    let values: Vec<Double> = values.iter().copied().map(Double::from_f64).collect();
+    // No value of a parameter makes a law that is absent: NaN is not zero.
+    let any = vec![Double::from_f64(f64::NAN); values.len()];
+    let laws = numbers::links_as_given(scene, &any).into_iter().map(|own| {
+        let zero = Double::from_f64(0.0);
+        let is_law = |contact: FrictionContact| {
+            let mut strengths = own.passive.law(contact).strengths().into_iter();
+            strengths.any(|own| *own != zero)
         };
-        for parameter in 0..values.len() {
-            let values = varied(&values, parameter);
-            let gravity = numbers::value(&scene.gravity, &values);
-            slopes.gravity.take(parameter, [gravity]);
-            let own = numbers::links_as_given(scene, &values);
-            for (slopes, own) in slopes.links.iter_mut().zip(&own) {
-                slopes.take(parameter, own.numbers());
+        FrictionContact::ALL.map(is_law)
+    });
+    let links = numbers::links_as_given(scene, &values);
+    // The index of a link fits, as that of a link in the equations.
+    let parents = links.iter().map(|link| link.parent.unwrap_or(0) as u32);
+    let shape = Shape::Shared(parents.collect());
+    let between = Between::of(scene, links.len(), &values).cast(constant);
+    let links = links.iter().zip(laws);
+    let links =
+        links.map(|(link, laws)| PassiveLink::from_row(&link.map(constant).numbers(), laws));
+    let gravity = constant(numbers::value(&scene.gravity, &values));
+    VirtualPower::new(shape, gravity, links.collect())
+        .with_forces_between(between.torsional, between.translational)
+        .with_slopes(slopes(scene, &values))
+}
+
+/// Returns the derivatives of the constants of a tree by its parameters.
+fn slopes<T: Scalar>(scene: &Scene, values: &[Double]) -> ParameterSlopes<T> {
+    let (mut places, mut slopes) = (Vec::new(), Vec::new());
+    for parameter in 0..values.len() {
+        let values = varied(values, parameter);
+        let mut group = 0;
+        let mut take = |constants: &[Dual<Double, 1>]| {
+            for (index, own) in constants.iter().enumerate() {
+                let [slope] = own.tangents;
+                if slope != Double::from_f64(0.0) {
+                    places.push([group, index, parameter]);
+                    slopes.push(constant(slope));
+                }
             }
-            let between = Between::of(scene, links, &values);
-            for (slopes, own) in slopes.springs.iter_mut().zip(between.torsional.iter()) {
-                slopes.take(parameter, numbers_of_spring(&own));
-            }
-            for (slopes, own) in slopes.lines.iter_mut().zip(between.translational.iter()) {
-                slopes.take(parameter, numbers_of_line(&own));
-            }
+            group += 1;
+        };
+        take(&[numbers::value(&scene.gravity, &values)]);
+        let links = numbers::links_as_given(scene, &values);
+        links.iter().for_each(|own| take(&own.numbers()));
+        for (own, _) in numbers::spring_dampers(scene, &values) {
+            take(&numbers_of_spring(&own));
         }
-        slopes
+        let between = Between::of(scene, links.len(), &values);
+        for own in between.translational.iter() {
+            take(&numbers_of_line(&own));
+        }
     }
+    ParameterSlopes::new(values.len(), &places, &slopes)
 }
 
 /// Returns the values of the parameters as dual numbers, of which one varies.
@@ -212,8 +108,8 @@ pub(super) fn drives<T: Scalar>(
 }
 
 impl<T: Copy> LinkNumbers<T> {
-    /// Returns the constants of the link one after the other.
-    pub(super) fn numbers(&self) -> [T; 10 + 2 * LAW_CONSTANTS] {
+    /// Returns the constants of the link in the order of [`PassiveLink::from_row`].
+    fn numbers(&self) -> [T; 10 + 2 * LAW_CONSTANTS] {
         let Self {
             parent: _,
             mass,
@@ -242,20 +138,15 @@ impl<T: Copy> LinkNumbers<T> {
 }
 
 /// Returns the constants of a spring-damper one after the other.
-pub(super) fn numbers_of_spring<T: Scalar>(own: &SpringDamper<T>) -> [T; 3 + LAW_CONSTANTS] {
-    let zero = T::from_f64(0.0);
-    let law = own
-        .law
-        .map_or([zero; LAW_CONSTANTS], FrictionLaw::into_constants);
+fn numbers_of_spring<T: Scalar>(own: &SpringDamper<T>) -> Vec<T> {
+    let law = own.law.into_iter().flat_map(FrictionLaw::into_constants);
     let own = [own.spring, own.rest, own.friction];
-    let mut all = own.into_iter().chain(law);
-    // There are as many constants as places.
-    std::array::from_fn(|_| all.next().unwrap_or(zero))
+    own.into_iter().chain(law).collect()
 }
 
 /// Returns the constants of a line one after the other: of the arms, of the fixed part, and of the
 /// force.
-pub(super) fn numbers_of_line<T: Copy>(own: &TranslationalSpringDamper<T>) -> Vec<T> {
+fn numbers_of_line<T: Copy>(own: &TranslationalSpringDamper<T>) -> Vec<T> {
     let numbers = RefCell::new(Vec::new());
     let _ = own.map(|number| numbers.borrow_mut().push(number));
     numbers.into_inner()

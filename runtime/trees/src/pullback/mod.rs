@@ -1,27 +1,18 @@
 //! Equations of motion with derivatives in reverse mode.
 //!
-//! The accelerations α solve M α + b = Q. A change δ of the state or of a constant changes their
-//! weighted sum by w·δα = λ·δ(Q − M α − b) with M λ = w, where α and λ are kept. The product
-//! λ·(Q − M α − b) is the virtual power of all forces, those of inertia included, along the virtual
-//! angular velocities λ (d'Alembert). It is a sum over links, springs and dampers, each of which
-//! depends on few angles: one pass from the root to the leaves and one back give all derivatives.
+//! The method is that of trees in loops ([`VirtualPower`]).
 
 mod constants;
-mod lines;
-mod links;
-mod planar;
 
 use branched_pendulum::scalar::{Dual, Scalar};
 use branched_pendulum::system::{
     AbsoluteAngles, Model, Ode, PullbackOde, PullbackWorkspace, Workspace,
 };
+use branched_pendulum::tree::{VirtualMotion, VirtualPower};
 
 use crate::drive::Courses;
 use crate::forms::{Acting, Equations};
 use crate::tree::PendulumTree;
-
-use constants::{Constants, ParameterSlopes};
-use links::{Motion, VirtualPower};
 
 /// Equations of motion of a tree in the links' angles, with derivatives in reverse mode by the
 /// state and by all parameters of the description.
@@ -62,8 +53,7 @@ pub struct TreePullback<T = f64> {
     tree: PendulumTree<T>,
     /// Equations of the same links without gravity, springs and friction.
     inertia: Equations<T>,
-    constants: Constants<T>,
-    slopes: ParameterSlopes<T>,
+    power: VirtualPower<T>,
     /// The drive, with its derivative by each parameter on which it depends.
     drives: Vec<(usize, Courses<Dual<T, 1>>)>,
 }
@@ -91,8 +81,7 @@ impl<T: Scalar> PendulumTree<T> {
         TreePullback {
             tree: self.clone(),
             inertia: self.inertia_alone(),
-            constants: Constants::of_tree(scene, values),
-            slopes: ParameterSlopes::of(scene, values),
+            power: constants::virtual_power(scene, values),
             drives: constants::drives(scene, values),
         }
     }
@@ -100,7 +89,7 @@ impl<T: Scalar> PendulumTree<T> {
 
 impl<T: Scalar> TreePullback<T> {
     /// Numbers of memory that one link takes.
-    const NUMBERS: usize = 2 + 2 * VirtualPower::<T>::VECTORS;
+    const NUMBERS: usize = 2 + VirtualPower::<T>::NUMBERS;
 
     /// Returns the number of parameters.
     #[must_use]
@@ -168,18 +157,20 @@ impl<T: Scalar> TreePullback<T> {
             .accelerate(workspace, pushed, [theta, still], lambda);
         self.tree
             .accelerate(workspace, acting, [theta, omega], alpha);
-        let motion = Motion {
+        // `RootDrive` has the opposite of the pivot's acceleration.
+        let pivot = acting
+            .drive
+            .map_or([T::from_f64(0.0); 2], |own| own.pivot.map(|own| -own));
+        let motion = VirtualMotion {
             theta,
             omega,
             alpha,
             lambda,
+            pivot,
         };
-        let tree = (&self.constants, &self.slopes);
-        let mut power = VirtualPower::new(tree, motion, vectors, by);
-        let pivot = power.add_links(acting.drive);
-        power.add_springs();
-        power.add_lines();
-        let [_, _, parameters] = power.by;
+        let [by_theta, by_omega, parameters] = by;
+        let slopes = [by_theta, by_omega, &mut *parameters];
+        let pivot = self.power.add_derivatives(motion, vectors, slopes);
         for (parameter, drive) in &self.drives {
             let [x, y, torque] = drive.inner(Dual::constant(time)).map(|own| own.tangents[0]);
             if let (Some(sum), Some(&root)) = (parameters.get_mut(*parameter), lambda.first()) {

@@ -1,6 +1,6 @@
 //! Vectors in the plane, and points that turn with a link.
 
-use branched_pendulum::scalar::Scalar;
+use crate::scalar::Scalar;
 
 /// A vector: x, and y opposite to a link at angle 0.
 pub(super) type Vector<T> = [T; 2];
@@ -20,6 +20,11 @@ pub(super) fn scaled<T: Scalar>(factor: T, [x, y]: Vector<T>) -> Vector<T> {
 /// Returns the vector J v, which is v turned by a right angle.
 pub(super) fn turned<T: Scalar>([x, y]: Vector<T>) -> Vector<T> {
     [-y, x]
+}
+
+/// Returns the vector −J v, which is v turned back by a right angle.
+pub(super) fn turned_back<T: Scalar>([x, y]: Vector<T>) -> Vector<T> {
+    [y, -x]
 }
 
 /// Returns the direction along a link at an angle (rad).
