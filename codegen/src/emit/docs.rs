@@ -187,6 +187,9 @@ impl Emission<'_> {
                 "The drive at `time` (in s): acceleration a_x, a_y (in m/s²) of the root's pivot, torque τ (in N m) on the root.",
             ]),
             Purpose::RootDrive => self.root_drive_meaning(),
+            Purpose::DrivePullback => fixed([
+                "Derivatives by the parameters of a sum of the components a_x, a_y and τ of [`drive`](Self::drive) at `time` (in s), each multiplied by its number in `given`.",
+            ]),
             Purpose::DrivePower => fixed([
                 "Power Σ Q_i ω_i (in W) of the drive on the whole tree at `time` (in s): dE/dt of E = K + U without friction.",
             ]),

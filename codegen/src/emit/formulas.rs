@@ -96,7 +96,7 @@ impl Emission<'_> {
                 self.power_formulas(&mechanics.transfers[n].drive)
             }
             Purpose::AntiphaseFrictionPower(n, _) => simple("P", &mechanics.transfers[n].friction),
-            Purpose::Drive | Purpose::RootDrive => self.drive_formulas(),
+            Purpose::Drive | Purpose::RootDrive | Purpose::DrivePullback => self.drive_formulas(),
             Purpose::DrivePower => match mechanics.drive.as_ref().and_then(|d| d.power.as_ref()) {
                 Some(power) => self.power_formulas(power),
                 None => Vec::new(),

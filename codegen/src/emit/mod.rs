@@ -35,6 +35,7 @@ mod strip_bodies;
 mod strip_docs;
 mod strip_equations;
 mod strip_powers;
+mod strip_pullback;
 mod strip_rows;
 mod strip_scales;
 mod strip_slices;

@@ -16,7 +16,11 @@ impl Emission<'_> {
             ),
             String::new(),
             format!(
-                "There is one array for each of these. A derivative by x is the product of w with a column of the Jacobian matrix, Σ_i w_i ∂θ̈_i/∂x, in the unit of w θ̈ divided by that of x. {BACKWARDS}"
+                "There is one array for each of these. A derivative by x is the product of w with a column of the Jacobian matrix, Σ_i w_i ∂θ̈_i/∂x, in the unit of w θ̈ divided by that of x. {}",
+                match self.scene.in_loops() {
+                    true => VIRTUAL_POWER,
+                    false => BACKWARDS,
+                }
             ),
         ]
     }
@@ -69,3 +73,6 @@ impl Emission<'_> {
 
 /// Method and cost of derivatives.
 const BACKWARDS: &str = "All are computed in one pass from the results back to the arguments (reverse mode: Griewank and Walther, Evaluating Derivatives, 2008, chapter 3). The cost includes that of the function itself.";
+
+/// Method and cost of derivatives of trees in loops.
+const VIRTUAL_POWER: &str = "A change δ of the state or of a constant changes the sum by λ·δ(Q − M θ̈ − b) with M λ = w, which is a change of the virtual power of all forces along λ. Two solves of the equations of motion and one pass from the root to the leaves and back compute all derivatives, the function itself included. O(links), and O(1) for each constant that depends on a parameter.";

@@ -10,13 +10,13 @@ use quote::{format_ident, quote};
 
 /// Description of an emitted function that takes arrays, for a tree whose code is a loop over its
 /// links.
-struct ArrayFunction {
-    name: Ident,
-    docs: Vec<String>,
+pub(super) struct ArrayFunction {
+    pub(super) name: Ident,
+    pub(super) docs: Vec<String>,
     /// Arguments after the angular velocities.
-    given: TokenStream,
-    result: TokenStream,
-    body: TokenStream,
+    pub(super) given: TokenStream,
+    pub(super) result: TokenStream,
+    pub(super) body: TokenStream,
 }
 
 impl Emission<'_> {
@@ -30,7 +30,10 @@ impl Emission<'_> {
             prescribed.map(|_| (Purpose::Prescribed(0), self.sweep_with_prescribed_links()));
         let inverse = self.scene.requests.inverse_dynamics;
         let inverse = inverse.then(|| (Purpose::InverseDynamics, self.sweep_of_given_motion()));
+        let pullbacks = self.pullbacks_in_loops().into_iter();
+        let pullbacks = pullbacks.map(|own| (own.purpose(), self.sweep_pullback(own)));
         let functions = forced.into_iter().chain(prescribed).chain(inverse);
+        let functions = functions.chain(pullbacks);
         let functions = functions.filter_map(|(purpose, [body, with_workspace])| {
             Some(self.computes(purpose, purpose.slices()?, &body, Some(&with_workspace)))
         });
@@ -102,7 +105,9 @@ impl Emission<'_> {
         let prescribed = sets.map(|number| self.accelerations_of_prescribed(number));
         let inverse = self.scene.requests.inverse_dynamics;
         let inverse = inverse.then(|| self.torques_of_motion());
-        quote!(#own #forced #(#prescribed)* #inverse)
+        let pullbacks = self.pullbacks_in_loops().into_iter();
+        let pullbacks = pullbacks.map(|own| self.pullback_on_arrays(own));
+        quote!(#own #forced #(#prescribed)* #inverse #(#pullbacks)*)
     }
 
     /// Emits `accelerations` on arrays.
@@ -200,7 +205,7 @@ impl Emission<'_> {
     }
 
     /// Emits a function of angles, velocities and other arrays, which returns its results.
-    fn array_function(&self, function: ArrayFunction) -> TokenStream {
+    pub(super) fn array_function(&self, function: ArrayFunction) -> TokenStream {
         let links = self.links();
         let time = self.mechanics.drive.is_some().then(|| quote!(time: T,));
         let ArrayFunction {

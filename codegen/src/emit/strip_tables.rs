@@ -32,20 +32,30 @@ impl Emission<'_> {
         let with_fields = [self.bodies(strips, &known), self.properties(strips, &known)];
         let (tables, fields): (Vec<_>, Vec<_>) = with_fields.into_iter().flatten().unzip();
         let fields = fields.into_iter().chain(self.stored_values(&known));
+        let tree = quote!(#runtime::tree::Tree::#tree #between #lines_between);
+        let pullback = self.pullback_values(strips, &known);
+        let (places, value) = match pullback {
+            Some((places, pullback)) => (
+                Some(places),
+                quote! {
+                    let tree = #tree;
+                    Self { pullback: #pullback, tree, #(#fields),* }
+                },
+            ),
+            None => (None, quote!(Self { tree: #tree, #(#fields),* })),
+        };
         quote! {
             #parents
             #table
             #(#tables)*
+            #places
             #(#lines)*
-            Self {
-                tree: #runtime::tree::Tree::#tree #between #lines_between,
-                #(#fields),*
-            }
+            #value
         }
     }
 
     /// Emits the shape of the tree, which further tables need.
-    fn shape(&self) -> TokenStream {
+    pub(super) fn shape(&self) -> TokenStream {
         let runtime = self.runtime();
         let shape = match self.scene.layout {
             Layout::Generations { .. } => {
@@ -178,7 +188,7 @@ impl Emission<'_> {
 
     /// Emits a table of constants as exact numbers, and code that converts it to a vector in the
     /// model's scalar, row by row, with the values that depend on parameters inserted.
-    fn table(
+    pub(super) fn table(
         &self,
         name: &str,
         purpose: &str,

@@ -7,7 +7,7 @@ use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
 
 /// Fields of a model in loops that are not constants of its drive.
-const FIELDS: [&str; 3] = ["tree", "bodies", "properties"];
+const FIELDS: [&str; 4] = ["tree", "pullback", "bodies", "properties"];
 
 impl Emission<'_> {
     /// Emits the equations and the functions of a model in loops.
@@ -63,8 +63,10 @@ impl Emission<'_> {
         let properties = self.scene.requests.positions;
         let properties =
             properties.then(|| quote!(properties: #runtime::tree::PropertyTable<#equations, T>));
-        let first = std::iter::once(tree).chain(bodies).chain(properties);
-        first.chain(stored).collect()
+        let pullback = self.pullback_type().map(|own| quote!(pullback: #own));
+        let first = std::iter::once(tree).chain(pullback);
+        let tables = bodies.into_iter().chain(properties);
+        first.chain(tables).chain(stored).collect()
     }
 
     fn strip_functions(&self) -> TokenStream {
@@ -75,6 +77,7 @@ impl Emission<'_> {
         };
         let (energies, drive) = (self.strip_energies(), self.strip_drive());
         let powers = self.strip_powers();
+        let drive_pullback = self.drive_pullback();
         // For the lint about commas: all tokens have the span of the attribute, see `emit`.
         let allow = self.mechanics.drive.is_some();
         let allow = allow.then(|| quote!(#[allow(clippy::possible_missing_comma)]));
@@ -87,12 +90,15 @@ impl Emission<'_> {
                 #energies
                 #drive
                 #powers
+                #drive_pullback
             }
         }
     }
 
     fn generation_functions(&self) -> TokenStream {
         let tree = self.tree_type();
+        let pullback = self.pullback_type();
+        let pullback = pullback.map(|_| quote!(self.pullback.set_threads(threads);));
         quote! {
             /// Returns the index of the link at the end of a path from the root,
             /// which has the number of a copy (from 0) for each generation. The
@@ -106,6 +112,7 @@ impl Emission<'_> {
             /// enough for several. Results do not depend on it.
             pub fn set_threads(&mut self, threads: ::core::num::NonZeroUsize) {
                 self.tree.set_threads(threads);
+                #pullback
             }
         }
     }
@@ -193,7 +200,10 @@ impl Emission<'_> {
         let properties = self.scene.requests.positions;
         let properties = properties.then(|| quote!(properties: self.properties.cast(&convert)));
         let tree = quote!(tree: self.tree.cast(&convert));
-        let first = std::iter::once(tree).chain(bodies).chain(properties);
-        first.chain(stored).collect()
+        let pullback = self.pullback_type();
+        let pullback = pullback.map(|_| quote!(pullback: self.pullback.cast(&convert)));
+        let first = std::iter::once(tree).chain(pullback);
+        let tables = bodies.into_iter().chain(properties);
+        first.chain(tables).chain(stored).collect()
     }
 }

@@ -14,7 +14,8 @@ impl Naming {
     /// by link.
     pub fn purposes(&self) -> Vec<Purpose> {
         use Purpose as P;
-        let is_of_loops = |purpose: &P| matches!(purpose, P::RootGravity | P::RootDrive);
+        let is_of_loops =
+            |purpose: &P| matches!(purpose, P::RootGravity | P::RootDrive | P::DrivePullback);
         let mut all = P::singles();
         all.retain(|purpose| !is_of_loops(purpose));
         all.extend((0..self.prescribed.len()).map(P::Prescribed));

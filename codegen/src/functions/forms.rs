@@ -166,3 +166,7 @@ pub const LINK_PROPERTIES: [&str; 8] = [
     "place of the end along the link, from its pivot (m)",
     "place of the end across the link (m)",
 ];
+
+/// Names of the weights of the drive's components: acceleration of the root's pivot and torque on the
+/// root.
+pub(crate) const DRIVE_WEIGHTS: &[&str] = &["pivot_x", "pivot_y", "torque"];

@@ -12,7 +12,7 @@ mod purpose;
 pub use argument::{Argument, ResultShape};
 pub use catalogue::is_method;
 pub use differentiated::Differentiated;
-pub(crate) use forms::CANONICAL;
+pub(crate) use forms::{CANONICAL, DRIVE_WEIGHTS};
 pub use forms::{
     Cause, Counting, EnergyDefinition, EntryState, LINK_PROPERTIES, NormalFormFunction,
     ObservableForm, PointKind,

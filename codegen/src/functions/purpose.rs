@@ -9,9 +9,9 @@ use super::Argument::{
 use super::ResultShape::{Budget, Rows, Scalar, Transfer, Transfers, Vector};
 use super::naming::arrays;
 use super::{
-    BodyFunction, CANONICAL, Cause, Counting, Differentiated, EnergyDefinition, EntryState,
-    LINK_PROPERTIES, LinkFunction, Naming, NormalFormFunction, ObservableForm, PointKind,
-    ResultShape, ScaleFunction, Signature, SliceFunction,
+    BodyFunction, CANONICAL, Cause, Counting, DRIVE_WEIGHTS, Differentiated, EnergyDefinition,
+    EntryState, LINK_PROPERTIES, LinkFunction, Naming, NormalFormFunction, ObservableForm,
+    PointKind, ResultShape, ScaleFunction, Signature, SliceFunction,
 };
 
 /// Declares the purposes, each with the signature of its function, in which `$naming` provides
@@ -326,6 +326,8 @@ purposes! { naming:
     /// Contribution of the drive to the apparent gravity at the root's pivot, and torque of the
     /// drive on the root, in reduced units.
     RootDrive => plain("root_drive", &[Time], Vector);
+    /// Derivatives by the parameters of a weighted sum of the drive's components, for a tree in loops.
+    DrivePullback => plain("drive_pullback", &[Time, Given(DRIVE_WEIGHTS)], Vector);
 }
 
 fn plain(name: impl Into<String>, arguments: &[Argument], shape: ResultShape) -> Signature {

@@ -61,8 +61,8 @@ pub use factors::common_factors;
 pub use fuse::FusedSum;
 pub use interpret::Interpreter;
 pub use link::{
-    Column, LINK_MOTION, LineConstants, LinePotentialConstants, LoopTree, SpringDamperConstants,
-    StripConstants,
+    Column, ConstantSlope, LINK_MOTION, LineConstants, LinePotentialConstants, LoopTree,
+    PowerConstants, SpringDamperConstants, StripConstants, passive_link_columns,
 };
 pub use operation::{Definition, Op, ValueId};
 pub use pass::Pass;

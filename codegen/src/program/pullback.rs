@@ -81,13 +81,13 @@ fn requested(scene: &Scene, request: &GradientRequest, of: Purpose) -> Option<Pu
 }
 
 /// Adjoints of the values of a program.
-struct Adjoints {
+pub(super) struct Adjoints {
     values: BTreeMap<ValueId, ValueId>,
 }
 
 impl Adjoints {
     /// Computes the adjoints of all values on which the weighted sum of the outputs depends.
-    fn of(builder: &mut Builder, outputs: &[ValueId], weights: &[ValueId]) -> Self {
+    pub(super) fn of(builder: &mut Builder, outputs: &[ValueId], weights: &[ValueId]) -> Self {
         let needed = builder.needed(outputs);
         let varying = varying(builder, &needed);
         // Names are for new values alone: the function itself keeps its own.
@@ -138,7 +138,7 @@ impl Adjoints {
 
     /// Returns the derivative by a parameter: the sum of c̅ ∂c/∂p over all constants c. The
     /// derivatives of constants are constants of the model themselves.
-    fn of_parameter(&self, builder: &mut Builder, parameter: usize) -> ValueId {
+    pub(super) fn of_parameter(&self, builder: &mut Builder, parameter: usize) -> ValueId {
         let values = self.values.iter();
         let constants = values.filter_map(|(&value, &adjoint)| match *builder.op(value) {
             Op::Constant(constant) => Some((constant, adjoint)),

@@ -2,7 +2,9 @@
 
 use crate::functions::Argument;
 
-use super::{ConstantId, ConstantOp, LinePotentialConstants, LoopTree, Op, Program, ValueId};
+use super::{
+    ConstantId, ConstantOp, ConstantSlope, LinePotentialConstants, LoopTree, Op, Program, ValueId,
+};
 use crate::scene::PairRun;
 use std::fmt::{self, Write};
 
@@ -12,6 +14,7 @@ impl fmt::Display for Program {
         if let Some(strips) = &self.strips {
             write_tables(f, strips)?;
             write_spring_dampers(f, strips)?;
+            write_power(f, strips)?;
         }
         self.write_entries(f)
     }
@@ -70,6 +73,30 @@ fn write_spring_dampers(f: &mut fmt::Formatter<'_>, strips: &LoopTree) -> fmt::R
             let links: Vec<String> = links.iter().map(ToString::to_string).collect();
             writeln!(f, "  {count} from {}", links.join(", "))?;
         }
+    }
+    Ok(())
+}
+
+/// Writes the constants of the virtual power, strip by strip, and their derivatives by parameters.
+fn write_power(f: &mut fmt::Formatter<'_>, strips: &LoopTree) -> fmt::Result {
+    let Some(power) = &strips.power else {
+        return Ok(());
+    };
+    let list = |constants: &[ConstantId]| {
+        let constants: Vec<String> = constants.iter().map(|id| format!("k{}", id.0)).collect();
+        constants.join(" ")
+    };
+    writeln!(f, "virtual power: gravity k{}", power.gravity.0)?;
+    for (strip, row) in strips.strips.iter().zip(&power.rows) {
+        writeln!(f, "  {}: {}", strip.name, list(row))?;
+    }
+    for ConstantSlope { place, slope } in &power.slopes {
+        let [group, constant, parameter] = place;
+        writeln!(
+            f,
+            "  derivative of constant {constant} in group {group} by parameter {parameter}: k{}",
+            slope.0
+        )?;
     }
     Ok(())
 }

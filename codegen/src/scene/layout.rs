@@ -189,6 +189,8 @@ fn unlooped(templates: &[Template], asked: &RequestedOutputs<'_>) -> Option<Stri
     // Loops always use the articulated recursion.
     let factorization = requests.solve == Some(Solve::Factorization);
     let budget = requests.budget.as_ref();
+    let gradient = requests.gradient.as_ref();
+    let gradient_of_energies = gradient.is_some_and(|gradient| gradient.energies);
     let exact_or_truncated = budget.is_some_and(|budget| !budget.scales);
     let flags = requests.named();
     let flag = flags
@@ -198,7 +200,7 @@ fn unlooped(templates: &[Template], asked: &RequestedOutputs<'_>) -> Option<Stri
         (requests.transfer.is_some(), "`emit(transfer)`"),
         (exact_or_truncated, "`emit(budget)`"),
         (asked.resolved.acting.is_some(), "`emit(small)`"),
-        (requests.gradient.is_some(), "`emit(gradient)`"),
+        (gradient_of_energies, "`emit(gradient(energies))`"),
         (asked.observables, "`observe(…)`"),
         (factorization, "`solve = factorization`"),
         (templates.len() < 2, "a single generation"),

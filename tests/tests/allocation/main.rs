@@ -6,10 +6,10 @@ mod counting;
 
 use std::num::NonZeroUsize;
 
-use branched_pendulum::Pendulum;
 use branched_pendulum::prelude::*;
 use branched_pendulum::scalar::Lane;
-use branched_pendulum::system::Workspace;
+use branched_pendulum::system::{PullbackOde, PullbackWorkspace, Workspace};
+use branched_pendulum::{Parametric, Pendulum};
 use counting::allocations;
 
 /// Allocations of a first and of a second call.
@@ -105,6 +105,42 @@ fn large_trees() {
     evaluations::<f32, _>(&Irregular::<f32>::default());
     evaluations::<f64, _>(&Mobile::<f64>::new());
     evaluations::<f32, _>(&Mobile::<f32>::default());
+}
+
+/// A tree whose accelerations have derivatives, with every kind of force.
+#[branched_pendulum(
+    gravity = 9.80665,
+    code = loops,
+    trunk: rod(mass = 1, length = l, friction(viscous = f, coulomb = f)) [
+        twig: rod(mass = 0.1, length = 0.5, at = 0.3, spring = k) * 40,
+        bough: rod(mass = 0.2, length = l / 2),
+    ],
+    siblings(twig, spring = k, friction(quadratic = f)),
+    between(trunk, twig_7, at = each(0.1, 0.2), spring = k, rest = 0.1, friction = f),
+    guy(bough, at = l / 4, to = (0.3, 0.2), spring = k, rest = 0.1),
+    drive(torque = push * cos(3 * t)),
+    emit(gradient(accelerations)),
+)]
+struct Differentiated;
+
+#[test]
+fn pullbacks() {
+    let values = [0.9, 1e-3, 0.2, 0.1];
+    let model = Differentiated::<f64>::with_parameters(|index| values[index]);
+    let ode = AbsoluteAngles(&model);
+    let n = ode.dimension();
+    let state: Vec<f64> = (0..n).map(|index| 0.1 + 0.01 * index as f64).collect();
+    let weights = vec![1.0; n];
+    let (mut by_state, mut by_parameters) = (vec![0.0; n], vec![0.0; values.len()]);
+    let mut workspace = PullbackWorkspace::new();
+    let [first, second] = of_two(|| {
+        let by = (&mut by_state, &mut by_parameters);
+        ode.add_pullback(&mut workspace, 0.3, &state, &weights, by.0, by.1);
+    });
+    assert!(first > 0);
+    assert_eq!(second, 0);
+    let all = by_state.iter().chain(&by_parameters);
+    assert!(all.into_iter().all(|own| own.is_finite() && *own != 0.0));
 }
 
 #[branched_pendulum(

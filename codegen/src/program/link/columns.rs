@@ -56,6 +56,20 @@ named_members! {
     }
 }
 
+impl Column {
+    /// Returns true for constants of the equations of motion that are proportional to the torque of a
+    /// spring, of friction or of drag.
+    pub fn is_passive_torque(self) -> bool {
+        let unit = TorqueUnit::Reduced;
+        let laws = FrictionContact::ALL.map(|contact| unit.law(contact));
+        let strengths = laws.iter().flat_map(FrictionLaw::strengths).flatten();
+        unit.viscous()
+            .iter()
+            .chain(strengths)
+            .any(|own| *own == self)
+    }
+}
+
 /// Unit of torques.
 #[derive(Clone, Copy)]
 pub(super) enum TorqueUnit {

@@ -39,6 +39,7 @@ impl EntryList<'_, '_> {
                 .drive
                 .as_ref()
                 .is_some_and(|drive| drive.torque.is_some()),
+            differentiated: super::has_pullback(scene),
         };
         for function in LinkFunction::ALL {
             let outputs = functions.of(self, function);
@@ -66,6 +67,7 @@ impl EntryList<'_, '_> {
         self.root(mechanics, &table);
         if let Some(drive) = &mechanics.drive {
             self.drive(mechanics, drive);
+            self.drive_pullback(scene);
         }
         let torque = functions.drive_torque.then_some(Column::DriveTorque);
         let columns = self.columns_read(Argument::Constants, torque);

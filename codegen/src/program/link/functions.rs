@@ -35,6 +35,9 @@ pub(super) struct Functions<'t> {
     /// True if links may be prescribed.
     pub(super) prescribed: bool,
     pub(super) drive_torque: bool,
+    /// True if derivatives of the accelerations are requested. They need the same equations without
+    /// springs and friction, which therefore are elements of the row even if all rows agree.
+    pub(super) differentiated: bool,
 }
 
 impl Functions<'_> {
@@ -54,9 +57,10 @@ impl Functions<'_> {
             (Kind::Leaf, _) => self.table.common(builder, true, column),
             (Kind::Inner, _) => self.table.common(builder, false, column),
         };
+        let varies = self.differentiated && column.is_passive_torque();
         match common {
-            Some(number) => builder.number(number),
-            None => builder.input(self.rows, column as usize),
+            Some(number) if number.is_zero() || !varies => builder.number(number),
+            Some(_) | None => builder.input(self.rows, column as usize),
         }
     }
 

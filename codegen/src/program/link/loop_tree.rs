@@ -146,6 +146,39 @@ impl LineConstants {
     }
 }
 
+/// Constants on which the virtual power of a tree depends, for derivatives of the accelerations in
+/// reverse mode.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct PowerConstants {
+    /// Gravity, in m/s².
+    pub gravity: ConstantId,
+    /// Constants of each strip, in the order of
+    /// [`passive_link_columns`](crate::program::passive_link_columns).
+    pub rows: Vec<Vec<ConstantId>>,
+    /// For each contact, true if some link has friction there that is not viscous.
+    pub laws: [bool; 2],
+    /// Derivatives of the constants by parameters, without those that are zero, sorted by place.
+    pub slopes: Vec<ConstantSlope>,
+}
+
+/// Derivative of a constant by a parameter.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct ConstantSlope {
+    /// Index of the group, of the constant in it, and of the parameter. The groups are gravity, the
+    /// rows of the strips, then the runs of spring-dampers and of lines.
+    pub place: [usize; 3],
+    /// The derivative.
+    pub slope: ConstantId,
+}
+
+impl PowerConstants {
+    fn all_constants(&self) -> impl Iterator<Item = ConstantId> {
+        let slopes = self.slopes.iter().map(|own| &own.slope);
+        let all = self.rows.iter().flatten().chain(slopes);
+        std::iter::once(&self.gravity).chain(all).copied()
+    }
+}
+
 /// A tree in loops.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct LoopTree {
@@ -159,6 +192,8 @@ pub struct LoopTree {
     pub spring_dampers: Vec<SpringDamperConstants>,
     /// Forces along lines between points.
     pub lines: Vec<LineConstants>,
+    /// Constants of the virtual power, if derivatives of the accelerations are requested.
+    pub power: Option<PowerConstants>,
     /// True if children of one link hang at different points.
     pub has_several_places: bool,
     /// True if joints have torques.
@@ -179,7 +214,8 @@ impl LoopTree {
         let between = self.spring_dampers.iter();
         let between = between.flat_map(SpringDamperConstants::named);
         let between = between.chain(self.lines.iter().flat_map(LineConstants::named));
-        rows.chain(between.map(|(_, id)| id))
+        let power = self.power.iter().flat_map(PowerConstants::all_constants);
+        rows.chain(between.map(|(_, id)| id)).chain(power)
     }
 
     /// Returns true if forces act between links that are not parent and child, or along a line.

@@ -25,18 +25,27 @@ mod spring_dampers;
 mod strips;
 mod torques;
 mod tree;
+mod virtual_power;
 
 pub use columns::Column;
 pub use loop_tree::{
-    LINK_MOTION, LineConstants, LinePotentialConstants, LoopTree, SpringDamperConstants,
-    StripConstants,
+    ConstantSlope, LINK_MOTION, LineConstants, LinePotentialConstants, LoopTree, PowerConstants,
+    SpringDamperConstants, StripConstants,
 };
+pub use virtual_power::passive_link_columns;
 
 use crate::scene::{Layout, LinkId, Scene};
 
-/// Returns true if links have torques other than those of their joints.
+/// Returns true if links have torques other than those of their joints. Derivatives of the
+/// accelerations need the accelerations that torques cause.
 fn has_outside_torques(scene: &Scene) -> bool {
-    scene.requests.forces || scene.is_coupled()
+    scene.requests.forces || scene.is_coupled() || has_pullback(scene)
+}
+
+/// Returns true if derivatives of the accelerations are requested.
+fn has_pullback(scene: &Scene) -> bool {
+    let gradient = scene.requests.gradient.as_ref();
+    gradient.is_some_and(|gradient| gradient.accelerations)
 }
 
 /// Returns true if the scene has links with prescribed motion.

@@ -272,6 +272,7 @@ impl Lowering<'_> {
         }
         let spring_dampers = self.spring_damper_constants(scene);
         let lines = self.line_constants(scene);
+        let power = self.power_constants(scene, &spring_dampers, &lines);
         let drive = scene.drive.as_ref();
         LoopTree {
             columns,
@@ -279,6 +280,7 @@ impl Lowering<'_> {
             strips,
             spring_dampers,
             lines,
+            power,
             has_several_places: table.has_several_places,
             has_joint_torques: any(|link| link.passive.has_joint_torque()),
             has_outside_torques: super::has_outside_torques(scene),

@@ -11,7 +11,7 @@ messages! {
         format!("code in loops does not support {what}"),
         "cannot be computed in loops",
         "leave out `code = loops`, or the part that it does not support; loops compute \
-         accelerations and energies",
+         accelerations, energies, and with `gradient(accelerations)` derivatives of accelerations",
     ),
     /// A generation rule has too many links to be written out, and its code cannot be loops.
     TooManyForUnrolled { what: String, limit: usize } => (

@@ -32,7 +32,7 @@ struct Pendulum;",
         "gradient_in_loops",
         "#[branched_pendulum(gravity = 9.8, code = loops,
     a: rod(mass = 1, length = 1) [b: rod(mass = 1, length = 1) * 2],
-    emit(gradient),
+    emit(energies, gradient),
 )] struct Pendulum;",
     ),
     (

@@ -96,6 +96,39 @@ fn strung() {
     insta::assert_snapshot!("strung_loops_program_lines", lines.join("\n"));
 }
 
+/// Derivatives of the accelerations: the constants of the virtual power and their derivatives, and the
+/// functions.
+#[test]
+fn differentiated() {
+    let stages = stages_of(
+        "#[branched_pendulum(
+            gravity = 9.80665, code = loops,
+            trunk: rod(mass = m, length = 0.3, friction(viscous = c, coulomb = 2 * c)) [
+                left: rod(mass = 0.2, length = l, spring = 0.1),
+                right: point(mass = 0.05, length = l / 2)
+            ],
+            drive(torque = push * cos(3 * t)),
+            emit(gradient(accelerations))
+        )] pub struct Sample;",
+    );
+    for name in [
+        "from_parameters_unchecked",
+        "accelerations_pullback",
+        "drive_pullback",
+        "compute_with",
+    ] {
+        let snapshot = format!("differentiated_loops_code_{name}");
+        insta::assert_snapshot!(snapshot, function(&stages.tokens, name));
+    }
+    let program = stages.program.to_string();
+    let power = program
+        .split_once("virtual power")
+        .expect("it is printed")
+        .1;
+    let (power, _) = power.split_once("leaf(").expect("functions follow");
+    insta::assert_snapshot!("differentiated_loops_program_power", power);
+}
+
 /// Links that may be held: one equation for those that are and those that are not.
 #[test]
 fn held() {

@@ -7,6 +7,7 @@ mod driven;
 mod friction;
 mod offsets;
 mod places;
+mod pullbacks;
 mod straight;
 
 use branched_pendulum::prelude::*;
