@@ -12,3 +12,4 @@ mod prescribed;
 mod prescribed_loops;
 mod reduced;
 mod small;
+mod symplectic;
