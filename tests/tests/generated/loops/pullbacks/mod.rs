@@ -28,7 +28,8 @@ macro_rules! differentiated {
 differentiated!(TableLoops, TableUnrolled, TABLE:
     gravity = g,
     trunk(mass = m, com = (0.1, c), inertia = 1e-3, joint = l, spring = k, rest = 0.1 * g,
-        friction(viscous = f, coulomb = b, quadratic = f, width = w), drag = 0.1 * f) [
+        friction(viscous = f, coulomb = b, static = 2 * b, stribeck = 3 * w, quadratic = f,
+            width = w), drag = 0.1 * f) [
         arm(mass = 0.1 * m, com = (0.1, 0.01), inertia = 1e-3, joint = (0.2, 0.02 * l), spring = 0.01,
             at = (0.3 * l, c), friction(coulomb = 1e-2), drag(viscous = f, quadratic = b, width = 0.3)) [
             hand: rod(mass = 0.04, length = l / 2),
