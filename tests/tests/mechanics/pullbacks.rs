@@ -1,6 +1,8 @@
 //! Derivatives by the reverse pass, in 31 digits against tangents of the same function by dual
 //! numbers, and against central differences of a function that is computed in 31 digits.
 
+use std::rc::Rc;
+
 use branched_pendulum::Scalar;
 use branched_pendulum::scalar::{Double, Dual, Real};
 use branched_pendulum_codegen::functions::{Argument, Purpose};
@@ -10,26 +12,71 @@ use branched_pendulum_tests::oracle::generator::{Coupling, Recipe, coupled_sampl
 
 use crate::support::{Compiled, Worst, compile, compile_item};
 
+/// The exact numbers of a program, each converted once to the sum of two `f64`.
+struct Numbers {
+    constants: Vec<Option<(f64, f64)>>,
+    values: Vec<Option<(f64, f64)>>,
+}
+
+impl Numbers {
+    fn new(program: &Program) -> Self {
+        let constants = program.setup.definitions.iter();
+        let constants = constants.map(|definition| match (&definition.exact, &definition.op) {
+            (Some(exact), _)
+            | (None, ConstantOp::Number(exact) | ConstantOp::Product(exact, _)) => {
+                Some(exact.to_parts())
+            }
+            (
+                None,
+                ConstantOp::Parameter(_)
+                | ConstantOp::Named(..)
+                | ConstantOp::Called(_)
+                | ConstantOp::Add(..)
+                | ConstantOp::Sub(..),
+            ) => None,
+        });
+        let values = program.definitions.iter();
+        let values = values.map(|definition| match &definition.op {
+            Op::Number(exact) => Some(exact.to_parts()),
+            Op::Input(..)
+            | Op::Constant(_)
+            | Op::Sin(_)
+            | Op::Cos(_)
+            | Op::Sqrt(_)
+            | Op::Neg(_)
+            | Op::Add(..)
+            | Op::Sub(..)
+            | Op::Mul(..)
+            | Op::Div(..) => None,
+        });
+        Self {
+            constants: constants.collect(),
+            values: values.collect(),
+        }
+    }
+}
+
 /// Values of an entry point in any number type. `at` gives elements of arguments.
 fn evaluate<T: Scalar>(
     program: &Program,
+    numbers: &Numbers,
     entry: &Entry,
     parameters: &[T],
     at: impl Fn(Argument, usize) -> T,
 ) -> Vec<T> {
-    let number = |number: &branched_pendulum_codegen::exact::Rational| {
-        let (high, low) = number.to_parts();
+    let number = |parts: Option<(f64, f64)>| {
+        let (high, low) = parts.expect("an operation with a number");
         T::from_parts(high, low)
     };
     let mut constants: Vec<T> = Vec::new();
-    for definition in &program.setup.definitions {
+    for (definition, &parts) in program.setup.definitions.iter().zip(&numbers.constants) {
         let of = |id: ConstantId| constants[id.0 as usize];
         constants.push(match (&definition.exact, &definition.op) {
-            (Some(exact), _) | (None, ConstantOp::Number(exact)) => number(exact),
+            (Some(_), _) | (None, ConstantOp::Number(_)) => number(parts),
             (None, &ConstantOp::Parameter(index)) => parameters[index],
             (None, &ConstantOp::Named(_, a) | &ConstantOp::Called(a)) => of(a),
-            (None, ConstantOp::Product(factor, powers)) => {
-                let mut product = number(factor);
+            (None, ConstantOp::Product(_, powers)) => {
+                let mut product = number(parts);
                 for &(id, power) in powers {
                     for _ in 0..power.unsigned_abs() {
                         product = match power > 0 {
@@ -46,14 +93,15 @@ fn evaluate<T: Scalar>(
     }
     let mut values: Vec<T> = Vec::new();
     let last = entry.outputs.iter().map(|id| id.0 as usize).max();
-    for definition in &program.definitions[..=last.expect("outputs")] {
+    let needed = &program.definitions[..=last.expect("outputs")];
+    for (definition, &parts) in needed.iter().zip(&numbers.values) {
         let of = |id: ValueId| values[id.0 as usize];
         values.push(match &definition.op {
             // An argument of other functions: their values are not used.
             &Op::Input(argument, _) if !entry.arguments.contains(&argument) => T::from_f64(1.0),
             &Op::Input(argument, index) => at(argument, index),
             Op::Constant(id) => constants[id.0 as usize],
-            Op::Number(exact) => number(exact),
+            Op::Number(_) => number(parts),
             &Op::Sin(a) => of(a).sin_cos().0,
             &Op::Cos(a) => of(a).sin_cos().1,
             &Op::Sqrt(a) => of(a).sqrt(),
@@ -74,6 +122,7 @@ fn evaluate<T: Scalar>(
 /// A function, its derivatives, and numbers at which both are compared.
 struct Case<'a> {
     program: &'a Program,
+    numbers: Rc<Numbers>,
     derivatives: &'a Entry,
     function: &'a Entry,
     time: f64,
@@ -88,6 +137,7 @@ impl<'a> Case<'a> {
     /// All functions with derivatives, each at a random point.
     fn all(compiled: &'a Compiled, random: &mut Random) -> Vec<Self> {
         let program = &compiled.program;
+        let numbers = Rc::new(Numbers::new(program));
         let of = |entry: &&Entry| {
             use Purpose::{AccelerationsPullback, AccelerationsUnderPullback, Gradient};
             let purpose = entry.purpose;
@@ -120,6 +170,7 @@ impl<'a> Case<'a> {
             let time = random.between(0.0, 5.0);
             Case {
                 program,
+                numbers: Rc::clone(&numbers),
                 derivatives,
                 function,
                 time,
@@ -150,6 +201,7 @@ impl<'a> Case<'a> {
             .collect();
         evaluate(
             self.program,
+            &self.numbers,
             entry,
             parameters,
             |argument, index| match argument {
