@@ -1,5 +1,7 @@
 //! The pipeline on one page: from the tokens of an attribute to the tokens of its expansion.
 
+use std::cell::OnceCell;
+
 use crate::description::{self, CratePath, Description};
 use crate::emit;
 use crate::invocation;
@@ -21,8 +23,22 @@ pub struct Stages {
     pub mechanics: Mechanics,
     /// The code to emit, as a flat list of operations.
     pub program: Program,
-    /// The emitted tokens.
-    pub tokens: TokenStream,
+    tokens: OnceCell<TokenStream>,
+}
+
+impl Stages {
+    /// Returns the emitted tokens. They are written at the first call: a program that is only
+    /// evaluated or shown is not.
+    pub fn tokens(&self) -> &TokenStream {
+        let Self {
+            description,
+            scene,
+            mechanics,
+            program,
+            tokens,
+        } = self;
+        tokens.get_or_init(|| emit::emit(&description.item, scene, mechanics, program))
+    }
 }
 
 /// Runs all stages on the tokens of an attribute and of the struct to which it is attached.
@@ -77,13 +93,12 @@ pub fn stages_without(
     }
     // No stage below can fail: a broken invariant is a bug of the compiler.
     debug_assert_eq!(program.verify(), Ok(()));
-    let tokens = emit::emit(&description.item, &scene, &mechanics, &program);
     Ok(Stages {
         description,
         scene,
         mechanics,
         program,
-        tokens,
+        tokens: OnceCell::new(),
     })
 }
 
@@ -91,7 +106,7 @@ pub fn stages_without(
 /// and stubs.
 pub fn expand(attribute: TokenStream, item: TokenStream) -> TokenStream {
     match stages(attribute, item) {
-        Ok(stages) => stages.tokens,
+        Ok(stages) => stages.tokens().clone(),
         Err((_, tokens)) => tokens,
     }
 }

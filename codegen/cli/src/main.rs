@@ -87,7 +87,7 @@ fn text(given: &Source, stage: Option<Stage>, emit: Option<Output>) -> Result<St
             scene,
             mechanics,
             program,
-            tokens,
+            ..
         } = &stages;
         let item = &description.item;
         let refuse = |title: &str, code: &str| {
@@ -116,7 +116,7 @@ fn text(given: &Source, stage: Option<Stage>, emit: Option<Output>) -> Result<St
                 replacements.push((found.range, format_tokens(equations)?));
             }
             (None, None) => {
-                let items = with_lints_allowed(tokens.clone());
+                let items = with_lints_allowed(stages.tokens().clone());
                 replacements.push((found.range, format_tokens(items)?));
             }
         }

@@ -66,7 +66,7 @@ impl ExpansionCache {
             return respan::respan(tokens, &item);
         }
         let tokens = match stages(attribute, item.clone()) {
-            Ok(stages) => stages.tokens,
+            Ok(stages) => stages.tokens().clone(),
             Err((_, tokens)) => return tokens,
         };
         let expansion = tokens.to_string();

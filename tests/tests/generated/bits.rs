@@ -321,7 +321,7 @@ fn nested() {
 /// undivided one would; places of the array serve several values.
 #[test]
 fn functions_in_parts() {
-    let tokens = scene("generations").tokens.to_string();
+    let tokens = scene("generations").tokens().to_string();
     for part in ["budget_parseval_part_1", "budget_parseval_part_2"] {
         assert!(tokens.contains(&format!("fn {part} ")), "no {part}");
     }

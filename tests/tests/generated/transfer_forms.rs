@@ -119,7 +119,7 @@ fn scenes_with_one_form_have_none_of_it() {
             "#[branched_pendulum(gravity = 9.8, a: rod(mass = 1, length = 1) \
              [b: rod(mass = 1, length = 1) * 2], emit({request}))] struct Model;"
         );
-        let code = stages_of(&source).tokens.to_string();
+        let code = stages_of(&source).tokens().to_string();
         assert_eq!(code.contains("TransferForms"), compared, "{request}");
     }
 }

@@ -29,7 +29,7 @@ fn tokens_of_loops(generations: usize) -> usize {
         stages.scene.layout,
         Layout::Generations { branching, links }
     );
-    count(stages.tokens)
+    count(stages.tokens().clone())
 }
 
 #[test]

@@ -89,7 +89,7 @@ fn they_have_the_functions_and_traits_of_models() {
         let constants = right.mechanics.constants.iter();
         let constants = constants.map(|c| right.mechanics.symbols.get(c.symbol).code.clone());
         let constants: Vec<String> = constants.collect();
-        for (name, (arguments, result)) in functions(right.tokens.clone()) {
+        for (name, (arguments, result)) in functions(right.tokens().clone()) {
             if constants.contains(&name) || name == "new" || name == "from_parameters_unchecked" {
                 continue;
             }
@@ -106,7 +106,7 @@ fn they_have_the_functions_and_traits_of_models() {
             assert!(is_method(&method), "no observable may be called {method}");
         }
         let stub = traits(wrong);
-        for name in traits(right.tokens) {
+        for name in traits(right.tokens().clone()) {
             let derived = ["Clone", "Debug", "PartialEq", "Copy", "Default"];
             let known = stub.contains(&name) || derived.contains(&name.as_str());
             assert!(known, "the stub of {scene} is no {name}");

@@ -59,7 +59,7 @@ const HAND: &str = "arm: rod_with_bob(mass = 0.4, length = 0.5, bob_mass = paylo
 
 /// The names of the fields of a model, and of the functions that read them.
 fn fields_and_functions(stages: &Stages) -> (Vec<String>, BTreeSet<String>) {
-    let file: syn::File = syn::parse2(stages.tokens.clone()).expect("emitted code is Rust");
+    let file: syn::File = syn::parse2(stages.tokens().clone()).expect("emitted code is Rust");
     let (mut fields, mut functions) = (Vec::new(), BTreeSet::new());
     for item in file.items {
         match item {

@@ -11,7 +11,7 @@ fn derivatives_are_readable() {
         "potential_energy_gradient",
         "reach_gradient",
     ] {
-        insta::assert_snapshot!(name, function(&stages.tokens, name));
+        insta::assert_snapshot!(name, function(stages.tokens(), name));
     }
     let operations = stages.program.entries.iter().map(|entry| {
         let operations = stages.program.operations(&entry.outputs);
@@ -32,7 +32,7 @@ fn functions_do_not_depend_on_their_derivatives() {
         assert!(with.program.entries.len() > without.program.entries.len());
         for entry in &without.program.entries {
             let [before, after] =
-                [&without, &with].map(|stages| function(&stages.tokens, &entry.name));
+                [&without, &with].map(|stages| function(stages.tokens(), &entry.name));
             assert_eq!(before, after, "`{}` of {name}", entry.name);
         }
     }

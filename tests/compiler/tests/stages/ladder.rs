@@ -95,7 +95,7 @@ impl Step {
 
 /// The tokens of each function of an entry point, docs included.
 fn functions(stages: &Stages) -> BTreeMap<String, String> {
-    let file: syn::File = syn::parse2(stages.tokens.clone()).expect("emitted code is Rust");
+    let file: syn::File = syn::parse2(stages.tokens().clone()).expect("emitted code is Rust");
     let mut functions = BTreeMap::new();
     for item in file.items {
         let syn::Item::Impl(block) = item else {
@@ -176,7 +176,7 @@ fn without_friction_there_is_no_symbol_of_it() {
         let stages = step.stages();
         let symbols = stages.mechanics.symbols.iter();
         let mut names: Vec<String> = symbols.map(|(_, symbol)| symbol.code.clone()).collect();
-        identifiers(stages.tokens, &mut names);
+        identifiers(stages.tokens().clone(), &mut names);
         let any = |word: &str| names.iter().any(|name| name.contains(word));
         assert_eq!(any("friction"), friction);
         assert!(!any("drag") && !any("spring") && !any("drive"));

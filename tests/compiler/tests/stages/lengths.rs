@@ -33,7 +33,7 @@ fn longest(requests: &str) -> (usize, String) {
     let stages = stages_of(&source);
     assert_eq!(stages.scene.links.len(), 31);
     // Lines count as they are formatted.
-    let formatted = layout(stages.tokens).expect("the code is Rust");
+    let formatted = layout(stages.tokens().clone()).expect("the code is Rust");
     let mut functions = Functions::default();
     functions.visit_file(&syn::parse_str(&formatted).expect("it is Rust still"));
     functions.0.into_iter().max().expect("it has functions")

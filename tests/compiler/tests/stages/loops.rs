@@ -16,15 +16,15 @@ fn all_stages(name: &str, text: &str) {
         format!("{name}_passes"),
         worth(&stages.scene, &stages.mechanics)
     );
-    let functions = LinkFunction::ALL.map(|link| function(&stages.tokens, link.name()));
+    let functions = LinkFunction::ALL.map(|link| function(stages.tokens(), link.name()));
     insta::assert_snapshot!(format!("{name}_code_link"), functions.concat());
     let constructor = match stages.scene.parameters.is_empty() {
         true => "default",
         false => "from_parameters_unchecked",
     };
-    let constructor = function(&stages.tokens, constructor);
+    let constructor = function(stages.tokens(), constructor);
     insta::assert_snapshot!(format!("{name}_code_constants"), constructor);
-    assert!(!pretty(stages.tokens).is_empty());
+    assert!(!pretty(stages.tokens().clone()).is_empty());
 }
 
 #[test]
@@ -87,7 +87,7 @@ fn strung() {
         "friction_power",
     ] {
         let snapshot = format!("strung_loops_code_{name}");
-        insta::assert_snapshot!(snapshot, function(&stages.tokens, name));
+        insta::assert_snapshot!(snapshot, function(stages.tokens(), name));
     }
     let program = stages.program.to_string();
     let lines: Vec<&str> = (program.lines())
@@ -144,6 +144,6 @@ fn held() {
         )] pub struct Sample;",
     );
     insta::assert_snapshot!("held_loops_scene", stages.scene.to_string());
-    let functions = LinkFunction::ALL.map(|link| function(&stages.tokens, link.name()));
+    let functions = LinkFunction::ALL.map(|link| function(stages.tokens(), link.name()));
     insta::assert_snapshot!("held_loops_code_link", functions.concat());
 }

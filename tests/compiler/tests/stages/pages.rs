@@ -8,7 +8,7 @@ fn pipeline_shows_every_stage() {
     let page = std::fs::read_to_string(fixture("../../docs/pipeline.md")).expect("it exists");
     let source = std::fs::read_to_string(fixture("scenes/simple.rs")).expect("it exists");
     let stages = scene("simple");
-    let code = super::snapshots::pretty(stages.tokens);
+    let code = super::snapshots::pretty(stages.tokens().clone());
     let start = code
         .find("    /// Angular accelerations")
         .expect("it is documented");
@@ -42,7 +42,7 @@ fn pipeline_shows_a_tree_in_loops() {
         let end = start + program[start..].find(to).expect("its end");
         program[start..end].to_owned()
     };
-    let code = super::snapshots::function(&stages.tokens, "inner");
+    let code = super::snapshots::function(stages.tokens(), "inner");
     let code = code
         .strip_prefix("impl Model {\n")
         .expect("a function alone");

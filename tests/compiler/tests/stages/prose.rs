@@ -37,7 +37,7 @@ fn emitted_prose_has_no_stray_brackets_and_lists() {
         "driven_loops",
     ];
     for name in scenes {
-        let text = layout(scene(name).tokens).expect("emitted code is Rust");
+        let text = layout(scene(name).tokens().clone()).expect("emitted code is Rust");
         let docs = text.lines().filter_map(|line| {
             let line = line.trim_start().strip_prefix("///")?;
             Some(line.strip_prefix(' ').unwrap_or(line))

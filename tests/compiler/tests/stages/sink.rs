@@ -15,7 +15,7 @@ fn evaluate(code: &str) -> Vec<&str> {
 #[test]
 fn short_accelerations_ask_at_once() {
     for name in ["paper", "nested"] {
-        let code = pretty(scene(name).tokens);
+        let code = pretty(scene(name).tokens().clone());
         assert!(code.contains("T::sin_cos_each(theta)"), "{name}");
         assert!(!code.contains("SinCosPairs::among"), "{name}");
     }
@@ -23,7 +23,7 @@ fn short_accelerations_ask_at_once() {
 
 #[test]
 fn long_accelerations_ask_where_they_need() {
-    let code = pretty(scene("generations").tokens);
+    let code = pretty(scene("generations").tokens().clone());
     let lines = evaluate(&code);
     let place = |what: &str| lines.iter().position(|line| line.contains(what));
     let asked: Vec<usize> = (0..lines.len())
@@ -59,7 +59,7 @@ fn longer_accelerations_ask_in_parts() {
         )]
         pub struct Tree;",
     );
-    let code = pretty(stages.tokens);
+    let code = pretty(stages.tokens().clone());
     let lines = evaluate(&code);
     assert!(lines.len() < 100, "{}", lines.len());
     assert!(

@@ -40,13 +40,13 @@ fn program(name: &str) {
 }
 
 fn code(name: &str) {
-    insta::assert_snapshot!(format!("{name}_code"), pretty(scene(name).tokens));
+    insta::assert_snapshot!(format!("{name}_code"), pretty(scene(name).tokens().clone()));
 }
 
 fn functions(name: &str, functions: &[&str]) {
     let stages = scene(name);
     for wanted in functions {
-        let text = function(&stages.tokens, wanted);
+        let text = function(stages.tokens(), wanted);
         insta::assert_snapshot!(format!("{name}_code_{wanted}"), text);
     }
 }
@@ -185,7 +185,7 @@ fn braked() {
     for name in ["accelerations", "symmetric_accelerations", "friction_power"] {
         insta::assert_snapshot!(
             format!("braked_code_{name}"),
-            function(&stages.tokens, name)
+            function(stages.tokens(), name)
         );
     }
 }
@@ -213,7 +213,7 @@ fn coupled() {
     ] {
         insta::assert_snapshot!(
             format!("coupled_code_{name}"),
-            function(&stages.tokens, name)
+            function(stages.tokens(), name)
         );
     }
 }
@@ -233,7 +233,10 @@ fn guyed() {
     insta::assert_snapshot!("guyed_scene", stages.scene.to_string());
     insta::assert_snapshot!("guyed_mechanics", stages.mechanics.to_string());
     for name in ["accelerations", "potential_energy", "friction_power"] {
-        insta::assert_snapshot!(format!("guyed_code_{name}"), function(&stages.tokens, name));
+        insta::assert_snapshot!(
+            format!("guyed_code_{name}"),
+            function(stages.tokens(), name)
+        );
     }
 }
 
@@ -255,7 +258,7 @@ fn repelled() {
     for name in ["accelerations", "potential_energy", "stiffness_matrix"] {
         insta::assert_snapshot!(
             format!("repelled_code_{name}"),
-            function(&stages.tokens, name)
+            function(stages.tokens(), name)
         );
     }
 }
@@ -279,7 +282,7 @@ fn banded() {
     ] {
         insta::assert_snapshot!(
             format!("banded_code_{name}"),
-            function(&stages.tokens, name)
+            function(stages.tokens(), name)
         );
     }
 }
@@ -294,7 +297,7 @@ fn taylor() {
     insta::assert_snapshot!("taylor_program", stages.program.to_string());
     insta::assert_snapshot!(
         "taylor_code_coefficients",
-        function(&stages.tokens, "taylor_coefficients")
+        function(stages.tokens(), "taylor_coefficients")
     );
     operations("series");
 }
@@ -362,7 +365,7 @@ fn reductions() {
     );
     insta::assert_snapshot!("reduced_description", stages.description.to_string());
     insta::assert_snapshot!("reduced_scene", stages.scene.to_string());
-    insta::assert_snapshot!("reduced_code", pretty(stages.tokens));
+    insta::assert_snapshot!("reduced_code", pretty(stages.tokens().clone()));
 }
 
 #[test]
@@ -379,7 +382,7 @@ fn transverse() {
     );
     insta::assert_snapshot!("transverse_mechanics", stages.mechanics.to_string());
     insta::assert_snapshot!("transverse_program", stages.program.to_string());
-    insta::assert_snapshot!("transverse_code", pretty(stages.tokens));
+    insta::assert_snapshot!("transverse_code", pretty(stages.tokens().clone()));
 }
 
 /// Small differences that act back: what they add to the in-phase motion, and its energy.
@@ -397,7 +400,7 @@ fn small() {
     );
     insta::assert_snapshot!("small_mechanics", stages.mechanics.to_string());
     for wanted in ["small_accelerations", "small_energy"] {
-        let text = function(&stages.tokens, wanted);
+        let text = function(stages.tokens(), wanted);
         insta::assert_snapshot!(format!("{wanted}_code"), text);
     }
 }

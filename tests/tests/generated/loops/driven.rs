@@ -154,7 +154,7 @@ fn loops_have_only_what_their_scene_asks_for() {
             "#[branched_pendulum(gravity = 9.8, code = loops, emit(energies), {more})] \
              struct Sample;"
         );
-        source::stages_of(&text).tokens.to_string()
+        source::stages_of(&text).tokens().to_string()
     };
     let straight = "a: rod(mass = 1, length = 1) [ b: rod(mass = 1, length = 1) ]";
     let bent = "a(mass = 1, com = (0.5, 0.1), inertia = 1, joint = 1) [

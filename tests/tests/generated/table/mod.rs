@@ -301,7 +301,7 @@ fn large_trees_get_a_table_of_a_few_lines_a_link() {
         ));
         assert_eq!(stages.scene.links.len(), links);
         assert_eq!(stages.scene.layout, Layout::Links);
-        let text = branched_pendulum_codegen::layout(stages.tokens).unwrap();
+        let text = branched_pendulum_codegen::layout(stages.tokens().clone()).unwrap();
         text.lines().count()
     };
     let [few, many] = [101, 401].map(lines);

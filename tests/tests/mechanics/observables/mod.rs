@@ -24,7 +24,8 @@ fn no_emitted_function_can_be_defined_again() {
         let text = std::fs::read_to_string(path).expect("the fixture exists");
         let (attribute, item) = attributed_struct(&text);
         let mut functions = Vec::new();
-        let code: syn::File = syn::parse2(source::scene(fixture).tokens).expect("it is Rust");
+        let code: syn::File =
+            syn::parse2(source::scene(fixture).tokens().clone()).expect("it is Rust");
         for block in code.items {
             let syn::Item::Impl(block) = block else {
                 continue;

@@ -206,7 +206,7 @@ fn mutated_descriptions_give_a_scene_or_messages() {
                 if scene.links.len() <= 8 {
                     let stages = stages(attribute, item);
                     let tokens = stages
-                        .map(|stages| stages.tokens)
+                        .map(|stages| stages.tokens().clone())
                         .map_err(|(report, _)| report);
                     let tokens = tokens.unwrap_or_else(|report| panic!("{report:?}: {shown}"));
                     assert!(syn::parse2::<syn::File>(tokens).is_ok(), "{shown}");

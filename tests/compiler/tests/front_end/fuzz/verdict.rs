@@ -23,7 +23,7 @@ pub(crate) enum Verdict {
 pub(crate) fn judge(attribute: &TokenStream, item: &TokenStream) -> (Verdict, Duration) {
     let start = processor_time();
     let expanded = catch_unwind(AssertUnwindSafe(|| {
-        stages(attribute.clone(), item.clone()).map(|stages| stages.tokens)
+        stages(attribute.clone(), item.clone()).map(|stages| stages.tokens().clone())
     }));
     let time = processor_time().saturating_sub(start);
     (verdict(expanded, item), time)
