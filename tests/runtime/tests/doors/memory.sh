@@ -2,15 +2,15 @@
 # The attacks of this folder in optimised code, natively and under valgrind, which finds what is
 # read or written beside memory, and knows no AVX-512. Needs valgrind.
 set -euo pipefail
-cd "$(dirname "$0")/../../.."
+cd "$(dirname "$0")/../../../.."
 
 if ! command -v valgrind > /dev/null; then
-    echo "runtime/tests/doors/memory.sh needs valgrind, which is not installed"
+    echo "tests/runtime/tests/doors/memory.sh needs valgrind, which is not installed"
     exit 1
 fi
 # Without the macro, and so without Symbolica.
 build() {
-    cargo test --release -p branched-pendulum --no-default-features --features std --test doors "$@"
+    cargo test --release -p branched-pendulum-runtime-tests --test doors "$@"
 }
 build
 program="$(build --no-run --message-format=json | grep -o '"executable":"[^"]*doors[^"]*"' | cut -d '"' -f 4)"

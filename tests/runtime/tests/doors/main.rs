@@ -3,7 +3,6 @@
 //! does not fit is refused by the compiler ([`refused`]), or gives NaN or other numbers, and
 //! nothing else. `memory.sh` beside this file runs all of it optimised and under valgrind.
 
-#![cfg(feature = "std")]
 #![forbid(unsafe_code)]
 
 mod marked;
