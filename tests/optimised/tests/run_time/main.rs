@@ -1,5 +1,6 @@
-//! Trees at run time: what takes long.
+//! Trees at run time, and one that is written out: what takes long.
 
 mod exponents;
 mod series;
 mod truncation;
+mod written_out;

@@ -5,32 +5,12 @@ mod run_time;
 
 use branched_pendulum::analysis::Modes;
 use branched_pendulum::prelude::*;
-use branched_pendulum_compiler_tests::source::fixture;
+use branched_pendulum_tests::reference::{number, numbers, read, trajectory};
 use branched_pendulum_tests::scenes::paper::Paper;
 use serde_json::Value;
 
 use self::run_time::AtRunTime;
 use crate::support::{Worst, compile_paper};
-
-fn read(name: &str) -> Value {
-    let path = fixture("reference").join(name);
-    let text = std::fs::read_to_string(path).expect("the fixture exists");
-    serde_json::from_str(&text).expect("the fixture is JSON")
-}
-
-/// A decimal, in degrees where the text says so.
-fn number(value: &Value) -> f64 {
-    let text = value.as_str().expect("numbers are texts of decimals");
-    match text.strip_suffix(" degrees") {
-        Some(degrees) => number(&Value::from(degrees)).to_radians(),
-        None => text.parse().expect("a decimal"),
-    }
-}
-
-fn numbers(values: &Value) -> Vec<f64> {
-    let values = values.as_array().expect("a list");
-    values.iter().map(number).collect()
-}
 
 /// The paper's constants.
 struct Constants {
@@ -219,24 +199,10 @@ fn energy_and_transfer_at_phase_points() {
     worst.assert_below(1e-12, "phase points");
 }
 
-/// The starting angles of a reference trajectory, and the angles and velocities
-/// at the times that it has.
-pub(crate) fn reference_state(problem: &str) -> ([f64; 3], impl Fn(f64) -> Vec<f64>) {
-    let reference = read("trajectories.json")["problems"][problem].clone();
-    let theta: [f64; 3] = numbers(&reference["theta_0"])
-        .try_into()
-        .expect("three angles");
-    let expected = move |time: f64| {
-        let state = &reference["t"][time.to_string()];
-        [numbers(&state["theta"]), numbers(&state["omega"])].concat()
-    };
-    (theta, expected)
-}
-
 /// Largest error of angles and velocities at each of the times, of a run in
 /// absolute angles and of one in symmetric coordinates.
 fn trajectory_errors(problem: &str, times: &[f64]) -> Vec<[f64; 2]> {
-    let (theta, expected) = reference_state(problem);
+    let (theta, expected) = trajectory(problem);
     let model = Paper::new();
     let method = Dop853::new(Options::with_tolerance(1e-13));
     let distance = |time: f64, found: &[f64]| -> f64 {
