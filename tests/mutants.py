@@ -24,6 +24,7 @@ GENERATED = ["-p", "branched-pendulum-tests", "--test", "generated"]
 LINK = ["-p", "branched-pendulum-codegen", "--test", "link"]
 LIBRARY = ["-p", "branched-pendulum", "--lib"]
 RUNTIME = ["-p", "branched-pendulum", "--test", "runtime"]
+INTEGRATORS = ["-p", "branched-pendulum-runtime-tests", "--test", "integrators"]
 DATA = ["-p", "branched-pendulum-data", "--test", "data"]
 MEASURE = ["-p", "branched-pendulum-measure", "--test", "measure"]
 PROGRAM = ["-p", "branched-pendulum-program", "--lib"]
@@ -133,16 +134,16 @@ EXPRESSIONS = [
      "order::the_classical_method_has_order_four"),
     ("a rising event that is hit exactly is missed", f"{R}/integrate/events/search.rs",
      "left.value < T::ZERO && right.value >= T::ZERO",
-     "left.value < T::ZERO && right.value > T::ZERO", RUNTIME, "events::"),
+     "left.value < T::ZERO && right.value > T::ZERO", INTEGRATORS, "events::"),
     ("falling events are missed", f"{R}/integrate/events/search.rs",
-     "left.value > T::ZERO && right.value <= T::ZERO", "false", RUNTIME, "events::directions"),
+     "left.value > T::ZERO && right.value <= T::ZERO", "false", INTEGRATORS, "events::directions"),
     ("a start on a zero has no side", f"{R}/integrate/events/search.rs",
-     "left.value != T::ZERO", "true", RUNTIME, "events::a_function_leaves_a_zero_to_a_side"),
+     "left.value != T::ZERO", "true", INTEGRATORS, "events::a_function_leaves_a_zero_to_a_side"),
     ("an event beside the last one is lost", f"{R}/integrate/events/search.rs",
      "self.found[first..].iter().take_while(at_once).count()", "1", RUNTIME,
      "restarts::times_a_few_units_of_rounding_apart_are_one"),
     ("the step after a cut one is the cut one's", f"{R}/integrate/control.rs",
-     "proposed.max(planned)", "proposed", RUNTIME,
+     "proposed.max(planned)", "proposed", INTEGRATORS,
      "backwards::the_step_after_a_cut_one_is_the_planned_one"),
     ("last states of a batch", f"{R}/batch/blocks.rs",
      "let end = next.min(last) + R::LANES;", "let end = next + R::LANES;", GENERATED,
@@ -232,7 +233,7 @@ EXPRESSIONS = [
      "beside * own.residual()", "own.residual()", MEASURE,
      "identification::frequencies::a_record_and_frequencies_weigh_by_their_errors"),
     ("simultaneous events of a run backwards", f"{R}/integrate/events/search.rs",
-     "(further - end) * length > T::ZERO", "further - end > T::ZERO", RUNTIME,
+     "(further - end) * length > T::ZERO", "further - end > T::ZERO", INTEGRATORS,
      "events::rough_crossings_at_one_time_are_visited_there"),
     ("sum for the mean of the decay", f"{T}/in_phase/growth.rs",
      "-rates.iter().skip(2 * all - own).sum::<f64>() / own as f64",

@@ -5,10 +5,7 @@
 
 mod accuracy;
 mod animation;
-mod backwards;
-mod continuation;
 mod ensemble;
-mod events;
 mod exponents;
 mod failures;
 mod gauss;
@@ -19,7 +16,6 @@ mod order;
 mod problems;
 mod projection;
 mod reference;
-mod requests;
 mod restarts;
 mod runs;
 mod sector_modes;
@@ -27,8 +23,5 @@ mod sector_modes;
 mod serde;
 mod stability;
 mod statistics;
-mod stepper;
-mod taylor;
 mod trajectory;
 mod variational;
-mod workspace;

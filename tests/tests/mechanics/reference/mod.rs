@@ -7,7 +7,6 @@ use branched_pendulum::analysis::Modes;
 use branched_pendulum::prelude::*;
 use branched_pendulum_tests::reference::{number, numbers, read, trajectory};
 use branched_pendulum_tests::scenes::paper::Paper;
-use serde_json::Value;
 
 use self::run_time::AtRunTime;
 use crate::support::{Worst, compile_paper};
