@@ -118,7 +118,7 @@ fn differentiated() {
         "compute_with",
     ] {
         let snapshot = format!("differentiated_loops_code_{name}");
-        insta::assert_snapshot!(snapshot, function(&stages.tokens, name));
+        insta::assert_snapshot!(snapshot, function(stages.tokens(), name));
     }
     let program = stages.program.to_string();
     let power = program
