@@ -11,6 +11,7 @@ cd "$(dirname "$0")/../.."
 
 evaluation() { # One state and batches: the tables of docs/performance.md.
     ours evaluation-speed
+    cargo build --quiet --release -p cargo-branched-pendulum # `program.py` asks it for our operations.
     theirs heyoka_batch.py
     theirs tools.py
 }
@@ -49,7 +50,7 @@ theirs() {
     "$PEERS/bin/python" "benches/peers/$1"
 }
 expanded() {
-    cargo build --quiet --release --bin cargo-branched-pendulum
+    cargo build --quiet --release -p cargo-branched-pendulum
     (cd benches/peers/rust &&
         ../../../target/release/cargo-branched-pendulum expand scenes.rs --output expanded.rs)
 }

@@ -29,7 +29,12 @@ fn rates_along(state: &[f64], time: f64, along: &[f64], rates: &mut [f64]) {
     let varied: Vec<Dual<f64, 1>> = varied.collect();
     let (theta, omega) = varied.split_at(3);
     let mut alpha = [Dual::constant(0.0); 3];
-    Reed::<Dual<f64, 1>>::new().accelerations_into(Dual::constant(time), theta, omega, &mut alpha);
+    Reed::<Dual<f64, 1>>::default().accelerations_into(
+        Dual::constant(time),
+        theta,
+        omega,
+        &mut alpha,
+    );
     let slopes = omega.iter().chain(&alpha).map(|own| own.tangents[0]);
     rates
         .iter_mut()
@@ -45,7 +50,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let explicit = Dop853::new(Options::with_tolerance(1e-6)).run(&system, &start, END)?;
     println!(
         "tolerance   steps of BDF   error   (Dop853 at 1e-6: {} steps)",
-        explicit.report.steps
+        explicit.report.accepted
     );
     for tolerance in [1e-4, 1e-6, 1e-8] {
         let problem = OdeBuilder::<NalgebraMat<f64>>::new()
