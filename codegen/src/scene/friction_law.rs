@@ -1,8 +1,8 @@
 //! Law of friction that is not viscous: Coulomb, Stribeck and quadratic friction.
 //!
 //! The order of the constants is that of [`FrictionLaw::into_constants`] everywhere: in
-//! descriptions, in the equations of a link and at run time. Code that treats all constants alike
-//! goes through arrays of this order.
+//! descriptions, in the equations of a link and at run time. Code that does the same with every
+//! constant takes them as an array of this order.
 
 use super::bodies::GivenProperties;
 use super::values::{Usage, Values};
@@ -117,6 +117,20 @@ impl LawConstant {
     pub fn in_words(&self, place: FrictionContact) -> String {
         format!("{}{}", self.meaning, place.property())
     }
+
+    /// Returns a property of a friction law, such as `friction(coulomb)`, in words; `None` for other
+    /// properties.
+    pub(super) fn property_in_words(name: &str) -> Option<String> {
+        let (property, member) = name.strip_suffix(')')?.split_once('(')?;
+        let mut places = FrictionContact::ALL.into_iter();
+        let place = places.find(|place| place.property() == property)?;
+        let mut constants = FrictionLaw::NAMES.into_constants().into_iter();
+        match constants.find(|constant| constant.member == member) {
+            Some(constant) => Some(constant.in_words(place)),
+            // The excess follows from this property.
+            None => (member == "static").then(|| format!("static {property}")),
+        }
+    }
 }
 
 impl<V> FrictionLaw<V> {
@@ -161,10 +175,11 @@ impl<V> FrictionLaw<V> {
         }
     }
 
-    /// Returns the constants on which the torque depends: without an excess that is not the Stribeck
-    /// rate. `is_zero` recognises a constant that is zero.
+    /// Returns the constants on which the torque depends: none without a law, and neither the excess
+    /// nor the Stribeck rate if the excess is zero. `is_zero` recognises a constant that is zero.
     pub fn effective(&self, is_zero: impl Fn(&V) -> bool) -> FrictionLaw<Option<&V>> {
-        let all = self.each_ref().map(|own| Some(*own));
+        let is_none = self.strengths().into_iter().all(&is_zero);
+        let all = self.each_ref().map(|own| (!is_none).then_some(*own));
         match is_zero(&self.excess) {
             true => FrictionLaw {
                 excess: None,

@@ -112,9 +112,9 @@ impl PassiveTorques {
             *own = law;
             return true;
         }
-        let is_alike = law.is_none() || own.shape() == law.shape();
+        let fits = law.is_none() || own.shape() == law.shape();
         *own = own.combined(&law, |a, b| Quantity::sum([a.clone(), b.clone()]));
-        is_alike
+        fits
     }
 }
 

@@ -6,7 +6,7 @@ use super::names::motion;
 use super::rule::{COUNTS, Counts, GenerationRule, changes_shape, ratios, scaled};
 use super::shape_names::{find_shape, forgotten_shape};
 use super::values::{Usage, Values, message_for};
-use super::{FrictionContact, FrictionLaw, Offset, Quantity, Sign};
+use super::{FrictionLaw, LawConstant, Offset, Quantity, Sign};
 use crate::description::{Node, Property, Value};
 use crate::report::{Faults, SyntaxMessage, TreeMessage, nearest};
 
@@ -380,22 +380,11 @@ pub(super) fn evaluate(
     }
 }
 
-/// Returns the name of a constant of a friction law, such as `friction(coulomb)`, in words.
-fn of_law(name: &str) -> Option<String> {
-    let (property, member) = name.strip_suffix(')')?.split_once('(')?;
-    let mut places = FrictionContact::ALL.into_iter();
-    let place = places.find(|place| place.property() == property)?;
-    let mut constants = FrictionLaw::NAMES.into_constants().into_iter();
-    let constant = constants.find(|constant| constant.member == member)?;
-    Some(constant.in_words(place))
-}
-
 /// Returns the name of a property as messages print it.
 fn in_words(name: &str) -> String {
     match name {
         "com" => "centre of mass".to_owned(),
         "at" => "pivot".to_owned(),
-        "friction(static)" => "static friction".to_owned(),
-        _ => of_law(name).unwrap_or_else(|| name.replace('_', " ")),
+        _ => LawConstant::property_in_words(name).unwrap_or_else(|| name.replace('_', " ")),
     }
 }

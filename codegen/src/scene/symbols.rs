@@ -219,18 +219,19 @@ fn add_constants<'a>(
         }
     }
     for place in FrictionContact::ALL {
-        let laws = passive().map(|own| own.law(place));
-        let laws: Vec<_> = laws.filter(|law| !law.is_none()).collect();
-        let constants = FrictionLaw::NAMES.into_constants().into_iter();
-        for (index, constant) in constants.enumerate() {
-            let is_effective = |law: &&FrictionLaw| {
-                law.effective(Quantity::is_zero).into_constants()[index].is_some()
-            };
-            if let (Some(word), true) = (
-                constant.words[place as usize],
-                laws.iter().any(is_effective),
-            ) {
-                names.push(format!("{word}_{own}"));
+        for torques in passive() {
+            let constants = FrictionLaw::NAMES.into_constants().into_iter();
+            let values = torques
+                .law(place)
+                .effective(Quantity::is_zero)
+                .into_constants();
+            for (constant, value) in constants.zip(values) {
+                if let (Some(word), Some(_)) = (constant.words[place as usize], value) {
+                    let name = format!("{word}_{own}");
+                    if !names.contains(&name) {
+                        names.push(name);
+                    }
+                }
             }
         }
     }
