@@ -56,9 +56,9 @@ impl Builder {
         }
         let speed = self.speed(law, rate, suffix);
         let factor = match (coulomb && excess, quadratic) {
-            (true, _) => self.mul(law.quadratic, speed),
-            (_, true) => self.strength_over_speed(law, rate, speed, suffix),
-            _ => {
+            (true, true | false) => self.mul(law.quadratic, speed),
+            (false, true) => self.strength_over_speed(law, rate, speed, suffix),
+            (false, false) => {
                 let strength = self.strength_over_speed(law, rate, speed, suffix);
                 let quadratic = self.mul(law.quadratic, speed);
                 self.add(strength, quadratic)
@@ -67,24 +67,21 @@ impl Builder {
         self.mul(factor, rate)
     }
 
-    /// Computes the derivative of the torque by w, C ε²/s³ + q (s + w²/s), and that of the excess.
+    /// Computes the derivative of the torque by w.
     fn braking_slope(&mut self, law: &Law, rate: ValueId, suffix: &str) -> ValueId {
-        let viscous = self.smoothed_slope(law, rate, suffix);
-        let excess = self.excess_derivatives(law, rate, suffix);
-        match excess {
-            Some([slope, _]) => self.add(viscous, slope),
-            None => viscous,
+        let slope = self.slope_without_excess(law, rate, suffix);
+        match self.excess_derivatives(law, rate, suffix) {
+            Some([of_excess, _]) => self.add(slope, of_excess),
+            None => slope,
         }
     }
 
-    /// Computes the second derivative of the torque, [q (3 − w²/s²) − 3 C ε²/s⁴] w/s, and that of
-    /// the excess.
+    /// Computes the second derivative of the torque by w.
     fn braking_curvature(&mut self, law: &Law, rate: ValueId, suffix: &str) -> ValueId {
-        let smoothed = self.smoothed_curvature(law, rate, suffix);
-        let excess = self.excess_derivatives(law, rate, suffix);
-        match excess {
-            Some([_, curvature]) => self.add(smoothed, curvature),
-            None => smoothed,
+        let curvature = self.curvature_without_excess(law, rate, suffix);
+        match self.excess_derivatives(law, rate, suffix) {
+            Some([_, of_excess]) => self.add(curvature, of_excess),
+            None => curvature,
         }
     }
 
@@ -130,8 +127,8 @@ impl Builder {
         Some([slope, self.neg(curvature)])
     }
 
-    /// Computes the derivative by w of the torque without the excess.
-    fn smoothed_slope(&mut self, law: &Law, rate: ValueId, suffix: &str) -> ValueId {
+    /// Computes the derivative by w of the torque without the excess, C ε²/s³ + q (s + w²/s).
+    fn slope_without_excess(&mut self, law: &Law, rate: ValueId, suffix: &str) -> ValueId {
         let speed = self.speed(law, rate, suffix);
         let one = self.integer(1);
         let inverse = self.div(one, speed);
@@ -146,8 +143,9 @@ impl Builder {
         self.add(coulomb, quadratic)
     }
 
-    /// Computes the second derivative by w of the torque without the excess.
-    fn smoothed_curvature(&mut self, law: &Law, rate: ValueId, suffix: &str) -> ValueId {
+    /// Computes the second derivative by w of the torque without the excess, [q (3 − w²/s²) − 3 C
+    /// ε²/s⁴] w/s.
+    fn curvature_without_excess(&mut self, law: &Law, rate: ValueId, suffix: &str) -> ValueId {
         let speed = self.speed(law, rate, suffix);
         let one = self.integer(1);
         let inverse = self.div(one, speed);
