@@ -43,6 +43,15 @@ impl Shape {
         }
     }
 
+    /// Returns the number of rows of constants: one for each link, or for each generation.
+    pub(super) fn rows(&self) -> usize {
+        match self {
+            Self::Parents(parents) => parents.len(),
+            Self::Shared(parents) => parents.len(),
+            Self::Generations(copies) => copies.len(),
+        }
+    }
+
     /// Iterates over the links from the root to the leaves, strip by strip (runs of neighbours).
     #[inline(always)]
     pub(super) fn strips(&self) -> impl DoubleEndedIterator<Item = Neighbours> {

@@ -7,6 +7,7 @@ mod constants;
 mod lines;
 mod planar;
 mod power;
+mod springs;
 
 pub use constants::{ParameterSlopes, PassiveLink};
 pub use power::{VirtualMotion, VirtualPower};

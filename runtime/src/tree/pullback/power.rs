@@ -2,10 +2,10 @@
 
 use alloc::vec::Vec;
 
-use super::constants::{LAWS, ParameterSlopes, PassiveLink, PassiveTorque, add_through};
+use super::constants::{LAWS, ParameterSlopes, PassiveLink, add_through};
 use super::planar::{Vector, arm, arm_slopes, direction, dot, scaled, sum, turned, turned_back};
 use crate::friction::{FrictionLaw, LAW_CONSTANTS};
-use crate::scalar::{Dual, Scalar};
+use crate::scalar::Scalar;
 use crate::spring_dampers::SpringDampers;
 use crate::translational::TranslationalSpringDampers;
 use crate::tree::shape::Shape;
@@ -24,8 +24,8 @@ pub struct VirtualPower<T> {
     pub(super) shape: Shape,
     gravity: T,
     /// Constants of all links, or of one link per generation.
-    links: Vec<PassiveLink<T>>,
-    springs: SpringDampers<T>,
+    pub(super) links: Vec<PassiveLink<T>>,
+    pub(super) springs: SpringDampers<T>,
     lines: TranslationalSpringDampers<T>,
     slopes: ParameterSlopes<T>,
 }
@@ -111,7 +111,8 @@ impl<T: Scalar> VirtualPower<T> {
 
     /// Adds the derivatives of the virtual power by angles, angular velocities and parameters to `by`,
     /// and returns those by the acceleration of the root's pivot. `memory` has
-    /// [`NUMBERS`](Self::NUMBERS) for each link. All derivatives are NaN if a slice has another length.
+    /// [`NUMBERS`](Self::NUMBERS) for each link. All derivatives are NaN if a slice has another length,
+    /// or if there are fewer or more links than the shape has rows.
     /// O(links), and O(1) for each derivative of a constant by a parameter; allocates nothing.
     pub fn add_derivatives(
         &self,
@@ -132,6 +133,7 @@ impl<T: Scalar> VirtualPower<T> {
         let springs_fit = self.springs.is_empty() || self.springs.links() == links;
         let lines_fit = self.lines.is_empty() || self.lines.links() == links;
         let fit = states == [links; 6]
+            && self.links.len() == self.shape.rows()
             && springs_fit
             && lines_fit
             && parameters.len() == self.parameters()
@@ -151,7 +153,7 @@ impl<T: Scalar> VirtualPower<T> {
 
 /// Derivatives of the virtual power at one state, as sums under construction.
 pub(super) struct Derivatives<'a, T> {
-    power: &'a VirtualPower<T>,
+    pub(super) power: &'a VirtualPower<T>,
     pub(super) motion: VirtualMotion<'a, T>,
     /// Directions of the links.
     pub(super) axes: &'a mut [Vector<T>],
@@ -237,13 +239,18 @@ impl<'a, T: Scalar> Derivatives<'a, T> {
     }
 
     /// Adds to the derivatives by parameters those that go through consecutive constants of a group.
-    fn add_by_parameters(&mut self, group: usize, first: usize, by_constants: &[T]) {
+    pub(super) fn add_by_parameters(&mut self, group: usize, first: usize, by_constants: &[T]) {
         let [_, _, parameters] = &mut self.by;
         add_through(self.power.slopes.of(group), first, by_constants, parameters);
     }
 
     /// Adds to the derivatives by parameters those that go through the constants of a law of friction.
-    fn add_by_law(&mut self, group: usize, first: usize, by_constants: Option<FrictionLaw<T>>) {
+    pub(super) fn add_by_law(
+        &mut self,
+        group: usize,
+        first: usize,
+        by_constants: Option<FrictionLaw<T>>,
+    ) {
         if let Some(law) = by_constants {
             self.add_by_parameters(group, first, &law.into_constants());
         }
@@ -355,21 +362,6 @@ impl<'a, T: Scalar> Derivatives<'a, T> {
         }
     }
 
-    /// Adds the derivatives of the springs and friction between links that are not parent and child.
-    fn add_springs(&mut self) {
-        let power = self.power;
-        let group = 1 + power.links.len();
-        for (run, own) in power.springs.runs().enumerate() {
-            for spring in own {
-                let torque = PassiveTorque::of(&spring);
-                let by = self.add_torque(&torque, spring.links.map(Some));
-                let constants = [by.spring, by.rest, by.friction];
-                self.add_by_parameters(group + run, 0, &constants);
-                self.add_by_law(group + run, constants.len(), by.law);
-            }
-        }
-    }
-
     /// Adds the derivatives of the forces along lines.
     fn add_lines(&mut self) {
         let power = self.power;
@@ -381,61 +373,4 @@ impl<'a, T: Scalar> Derivatives<'a, T> {
             }
         }
     }
-
-    /// Adds the derivatives of a torsion spring and friction between two `links`, where `None` is the
-    /// ground. Returns the derivatives by the constants.
-    fn add_torque(
-        &mut self,
-        own: &PassiveTorque<T>,
-        links: [Option<usize>; 2],
-    ) -> PassiveTorque<T> {
-        let zero = T::from_f64(0.0);
-        let VirtualMotion {
-            theta,
-            omega,
-            lambda,
-            ..
-        } = self.motion;
-        let [angle, rate, across] = [theta, omega, lambda].map(|values| {
-            let [own, other] = links.map(|link| link.map_or(zero, |link| values[link]));
-            own - other
-        });
-        let (law, slope) = match &own.law {
-            Some(law) => {
-                let (by, slope) = law_slopes(law, rate);
-                (Some(by.map(|slope| -(across * slope))), slope)
-            }
-            None => (None, zero),
-        };
-        let [by_theta, by_omega, _] = &mut self.by;
-        let by_angle = across * own.spring;
-        let by_rate = across * (own.friction + slope);
-        let [own_link, other] = links;
-        if let Some(link) = own_link {
-            by_theta[link] = by_theta[link] - by_angle;
-            by_omega[link] = by_omega[link] - by_rate;
-        }
-        if let Some(link) = other {
-            by_theta[link] = by_theta[link] + by_angle;
-            by_omega[link] = by_omega[link] + by_rate;
-        }
-        PassiveTorque {
-            spring: -(across * (angle - own.rest)),
-            rest: by_angle,
-            friction: -(across * rate),
-            law,
-        }
-    }
-}
-
-/// Returns the derivatives of the torque of a law of friction by its constants and by the rate.
-fn law_slopes<T: Scalar>(law: &FrictionLaw<T>, rate: T) -> (FrictionLaw<T>, T) {
-    let mut index = 0..=LAW_CONSTANTS;
-    let mut variable = |value: T| {
-        let index = index.next().unwrap_or(LAW_CONSTANTS);
-        Dual::<T, { LAW_CONSTANTS + 1 }>::variable(value, index)
-    };
-    let varied = law.map(&mut variable);
-    let [constants @ .., slope] = varied.torque(variable(rate)).tangents;
-    (FrictionLaw::of_constants(constants), slope)
 }

@@ -5,6 +5,7 @@ mod bits;
 mod dense;
 mod energies;
 mod equations;
+mod pullback;
 
 use alloc::vec::Vec;
 
