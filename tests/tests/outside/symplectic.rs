@@ -100,6 +100,8 @@ fn derivatives_by_the_start_follow_the_motion_backwards() {
     ]
     .concat();
 
+    let all = found.iter().chain(&gradient.start).chain(state);
+    assert!(all.into_iter().all(|own| own.is_finite()));
     let size = found.iter().fold(0.0_f64, |size, own| size.max(own.abs()));
     let errors = found.iter().zip(&gradient.start);
     let errors = errors.map(|(a, b)| (a - b).abs() / size);

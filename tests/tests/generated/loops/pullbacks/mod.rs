@@ -228,7 +228,9 @@ where
         let backward: Vec<Double> = backward.map(|(own, by)| product(own, by)).collect();
         let sizes = backward.iter().chain([&forward]);
         let size: f64 = sizes.map(|own| own.to_f64().abs()).sum();
-        worst = worst.max((forward - sum(backward)).to_f64().abs() / size);
+        let error = (forward - sum(backward)).to_f64().abs() / size;
+        assert!(error.is_finite(), "{error} of {size}");
+        worst = worst.max(error);
     }
     worst
 }
