@@ -7,7 +7,6 @@
 # writes FOLDER/PART.txt. FOLDER also gets the Python environment of the other tools, unless PEERS names
 # one. The parts are the functions below.
 set -euo pipefail
-cd "$(dirname "$0")/../.."
 
 evaluation() { # One state and batches: the tables of docs/performance.md.
     ours evaluation-speed
@@ -65,8 +64,7 @@ if [ $# -eq 0 ]; then
     echo "usage: benches/peers/run.sh FOLDER [PART…], parts: ${all[*]}" >&2
     exit 2
 fi
-mkdir -p "$1"
-folder="$(cd "$1" && pwd)"
+folder="$(realpath -m "$1")"
 shift
 parts=("${@:-${all[@]}}")
 for part in "${parts[@]}"; do
@@ -75,7 +73,10 @@ for part in "${parts[@]}"; do
         exit 2
     fi
 done
+mkdir -p "$folder"
+PEERS="${PEERS:+$(realpath -m "$PEERS")}"
 PEERS="${PEERS:-$folder/python}"
+cd "$(dirname "$0")/../.."
 if [ ! -x "$PEERS/bin/python" ]; then
     python3 -m venv "$PEERS"
     "$PEERS/bin/pip" install --quiet heyoka casadi mujoco numpy
