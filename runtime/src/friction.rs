@@ -111,7 +111,7 @@ impl Display for FrictionLaw<f64> {
 }
 
 impl<T: Scalar> FrictionLaw<T> {
-    /// Returns the law of a contact without friction. Its width and Stribeck rate are 1 rad/s.
+    /// Returns the law of a contact without friction, with a width and a Stribeck rate of 1 rad/s.
     #[must_use]
     pub fn none() -> Self {
         let [zero, one] = [0.0, 1.0].map(T::from_f64);

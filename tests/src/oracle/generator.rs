@@ -239,8 +239,8 @@ impl Properties<'_> {
         let _ = write!(self.text, "{force}(");
         if coulomb {
             law.coulomb = self.number("coulomb", 1e-3, 0.5);
-            // Half of these laws have static friction, told by the Coulomb friction: another
-            // draw would make other trees of all that follow.
+            // Half of these laws have static friction. The digits of the Coulomb friction decide
+            // which: another random number would change all trees that follow.
             let digits = (law.coulomb * 1e6).round();
             if digits % 2.0 == 0.0 {
                 let breakaway = law.coulomb + (digits % 97.0 + 1.0) / 200.0;
