@@ -13,12 +13,12 @@ use crate::tree::shape::Shape;
 /// Constants of a tree on which the virtual power of its forces depends, and their derivatives by
 /// the tree's parameters.
 ///
-/// The accelerations α of a tree solve M α + b = Q. Their sum Σ w_i α_i with weights w changes with
-/// the state and the constants by λ·δ(Q − M α − b), where M λ = w, and where α and λ are kept. The
-/// product λ·(Q − M α − b) is the virtual power of all forces, those of inertia included, along the
-/// virtual angular velocities λ (d'Alembert). It is a sum over links, springs and dampers, each of
-/// which depends on few angles: one pass from the root to the leaves and one back give all
-/// derivatives.
+/// The accelerations α of a tree solve M α + b = Q. If the state or a constant changes, the sum Σ w_i
+/// α_i with weights w changes by λ·δ(Q − M α − b), where λ solves M λ = w and δ is the change with α
+/// and λ held constant. The product λ·(Q − M α − b) is the virtual power of all forces, including
+/// those of inertia, along the virtual angular velocities λ (d'Alembert's principle). It is a sum over
+/// links, springs and dampers, and each term depends on few angles. Therefore one pass from the root
+/// to the leaves and one back give all derivatives.
 #[derive(Clone, Debug, PartialEq)]
 pub struct VirtualPower<T> {
     pub(super) shape: Shape,
