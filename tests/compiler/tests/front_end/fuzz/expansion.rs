@@ -224,7 +224,7 @@ fn cured_descriptions_stay_cured() {
 
 #[test]
 fn descriptions_are_expanded_or_refused() {
-    let faults = broken(20_251_122, 2_000);
+    let faults = broken(20_251_122, 500);
     assert!(faults.is_empty(), "{}", faults.join("\n"));
 }
 
