@@ -4,6 +4,9 @@
     tests/mutants.py --check        each mutant's text stands once in the source
     tests/mutants.py --list         the table of README.md
     tests/mutants.py COPY [NAME…]   runs mutants in COPY, a copy of this repository
+    tests/mutants.py --killers COPY [NAME…]
+                                    runs all tests of each mutant's binary, and lists those that
+                                    kill it, and then the tests that are the only ones for a mutant
 
 A run puts all mutants of expressions into COPY at once, each behind a switch that the
 environment sets, and so builds every test binary once; mutants of constants are built
@@ -12,6 +15,7 @@ not kill is an error.
 """
 
 import os
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -58,6 +62,16 @@ EXPRESSIONS = [
     ("friction against the ground instead of the parent", f"{C}/mechanics/force_elements.rs",
      "self.joint_rate(link, velocities)", "Formula::symbol(velocities[link])",
      MECHANICS, CARTESIAN),
+    ("static friction that grows with the rate", f"{C}/program/friction.rs",
+     "let excess = self.mul(law.excess, stribeck);", "let excess = self.mul(law.excess, square);",
+     MECHANICS, "friction::accelerations_agree_with_cartesian_jacobians"),
+    ("static friction of differences", f"{C}/program/symmetric/friction.rs",
+     "let most = self.series.mul(&law.excess, &stribeck);",
+     "let most = self.series.mul(&law.excess, &law.stribeck);",
+     MECHANICS, "friction::symmetric::symmetric_accelerations_are_those_of_the_links"),
+    ("static friction at any rate", f"{R}/friction.rs",
+     "self.coulomb * sum + self.excess * square", "self.coulomb * sum + self.excess * sum",
+     MECHANICS, "between::functions_are_those_of_trees_at_run_time"),
     ("sign of rest angles", f"{C}/program/lower.rs",
      "self.builder.sub(value, rest)", "self.builder.add(value, rest)", MECHANICS, CARTESIAN),
     ("torque between links on the second one", f"{C}/program/link/torques.rs",
@@ -312,8 +326,8 @@ def switched(number, text, mutant):
     return f"(if {test} {{ {mutant} }} else {{ {text} }})"
 
 
-def tested(copy, number, binary, test):
-    """True if the tests pass with this mutant."""
+def killers(copy, number, binary, test):
+    """The tests that fail with this mutant, among those whose names contain `test`."""
     environment = dict(os.environ, MUTANT=str(number), BRANCHED_PENDULUM_CACHE="off")
     command = ["cargo", "test", *binary, "--", test]
     run = subprocess.run(command, cwd=copy, env=environment, capture_output=True, text=True)
@@ -321,14 +335,28 @@ def tested(copy, number, binary, test):
         sys.exit(run.stderr)
     if "running 0 tests" in run.stdout and "FAILED" not in run.stdout:
         sys.exit(f"no test `{test}`")
-    return run.returncode == 0
+    failed = re.findall(r"^test (\S+) .*FAILED$", run.stdout, re.MULTILINE)
+    if run.returncode != 0 and not failed:
+        failed = ["(the process ended)"]
+    return failed
 
 
-def run(copy, wanted):
+def run(copy, wanted, all_tests):
     chosen = [m for m in EXPRESSIONS if not wanted or m[0] in wanted]
     constants = [m for m in CONSTANTS if not wanted or m[0] in wanted]
     originals = {}
-    survivors = []
+    survivors, alone = [], {}
+
+    def judge(name, number, binary, test):
+        found = killers(copy, number, binary, "" if all_tests else test)
+        print("killed" if found else "SURVIVED", name, flush=True)
+        if all_tests:
+            print("".join(f"    {test}\n" for test in found), end="", flush=True)
+        if not found:
+            survivors.append(name)
+        if len(found) == 1:
+            alone.setdefault(found[0], []).append(name)
+
     try:
         for package in {m[1].split("/src")[0] for m in chosen}:
             file = f"{package}/src/lib.rs"
@@ -340,10 +368,7 @@ def run(copy, wanted):
             number = 1 + [m[0] for m in EXPRESSIONS].index(name)
             (copy / file).write_text(content.replace(text, switched(number, text, mutant)))
         for name, _, _, _, binary, test in chosen:
-            number = 1 + [m[0] for m in EXPRESSIONS].index(name)
-            survived = tested(copy, number, binary, test)
-            print("SURVIVED" if survived else "killed", name, flush=True)
-            survivors += [name] if survived else []
+            judge(name, 1 + [m[0] for m in EXPRESSIONS].index(name), binary, test)
     finally:
         for file, content in originals.items():
             (copy / file).write_text(content)
@@ -353,12 +378,14 @@ def run(copy, wanted):
             originals[file] = source(copy, file, text)
             (copy / file).write_text(originals[file].replace(text, mutant))
         for name, _, _, _, binary, test in constants:
-            survived = tested(copy, 0, binary, test)
-            print("SURVIVED" if survived else "killed", name, flush=True)
-            survivors += [name] if survived else []
+            judge(name, 0, binary, test)
     finally:
         for file, content in originals.items():
             (copy / file).write_text(content)
+    if all_tests:
+        print("\ntests that are the only ones of their binary to kill a mutant")
+        for test, names in sorted(alone.items()):
+            print(f"| `{test}` | {'; '.join(names)} |")
     sys.exit(f"{len(survivors)} survived" if survivors else 0)
 
 
@@ -369,8 +396,10 @@ def main(arguments):
     elif arguments == ["--list"]:
         for name, file, _, _, _, test in EXPRESSIONS + CONSTANTS:
             print(f"| {name} | `{file}` | `{test or 'link'}` |")
+    elif len(arguments) > 1 and arguments[0] == "--killers":
+        run(Path(arguments[1]), arguments[2:], True)
     elif arguments and not arguments[0].startswith("-"):
-        run(Path(arguments[0]), arguments[1:])
+        run(Path(arguments[0]), arguments[1:], False)
     else:
         sys.exit(__doc__)
 
