@@ -46,6 +46,7 @@ type Outcome<R> = Result<Result<R, Interrupted>, Box<dyn Any + Send>>;
 
 /// Runs work on a separate thread, for work that includes parts (of other libraries) that cannot be
 /// interrupted. If it does not end soon after a signal, it is abandoned, and ends after that part.
+/// In Pyodide, which has no threads, the work runs on this one.
 ///
 /// # Errors
 /// The exception that the handler of a signal has raised, or an error if no thread could be
@@ -54,6 +55,9 @@ pub(crate) fn on_own_thread<R: Send + 'static>(
     py: Python<'_>,
     work: impl FnOnce() -> R + Send + 'static,
 ) -> PyResult<R> {
+    if cfg!(target_os = "emscripten") {
+        return detached(py, work);
+    }
     let (sender, mut receiver) = channel();
     let is_left = Arc::new(AtomicBool::new(false));
     let is_over = is_left.clone();
