@@ -19,13 +19,13 @@ async function execute(page) {
   const begin = Date.now();
   await page.getByRole("menuitem", { name: "Run", exact: true }).click();
   await page.getByRole("menuitem", { name: "Run All Cells", exact: true }).click();
-  await page.waitForFunction(() => {
-    const prompts = [...document.querySelectorAll(".jp-CodeCell .jp-InputPrompt")].map((prompt) => prompt.textContent);
-    const failed = document.querySelector('[data-mime-type="application/vnd.jupyter.error"]');
-    return failed || prompts.every((prompt) => /\[\d+\]/.test(prompt));
+  const error = await page.waitForFunction(() => {
+    const texts = (selector) => [...document.querySelectorAll(selector)].map((element) => element.textContent);
+    const error = texts(".jp-OutputArea-output").find((text) => text.includes("Traceback (most recent call last)"));
+    return error || (texts(".jp-CodeCell .jp-InputPrompt").every((prompt) => /\[\d+\]/.test(prompt)) && "none");
   }, undefined, { timeout: PATIENCE, polling: 500 });
-  const errors = await page.locator('[data-mime-type="application/vnd.jupyter.error"]').allTextContents();
-  if (errors.length > 0) throw new Error(errors.join("\n"));
+  const message = await error.jsonValue();
+  if (message !== "none") throw new Error(message);
   return (Date.now() - begin) / 1000;
 }
 
