@@ -21,6 +21,7 @@ edition = "2024"
 
 [dependencies]
 branched-pendulum = { path = "$repository/runtime", default-features = false, features = ["std"] }
+branched-pendulum-timing = { path = "$repository/benches/timing" }
 rand_xoshiro = "0.8"
 
 [workspace]

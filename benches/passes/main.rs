@@ -1,32 +1,29 @@
 //! Time saved by each optimisation pass of the compiler: measures the same scenes with and without
 //! the pass, in one run. `run.sh` writes `variants.rs` and builds this program.
 //!
-//! Variants are timed alternately. Each time is divided by that of the program with all passes in
-//! the same turn, and the median of these ratios is printed. `again` is a second copy of that
+//! Each time is divided by that of the program with all passes in the same turn, and the median of
+//! these ratios is printed. `again` is a second copy of that
 //! program: its distance from 1 is the effect of the placement of code.
 
 mod variants;
 
 use branched_pendulum::batch::Batch;
-use branched_pendulum::{Pendulum};
+use branched_pendulum::Pendulum;
+use branched_pendulum_timing::{Pass, Table, in_warm_turns};
 use rand_xoshiro::SplitMix64;
 use rand_xoshiro::rand_core::{Rng, SeedableRng};
 use std::hint::black_box;
-use std::time::Instant;
 
 /// Approximate number of values in one pass; the values of all variants fit into the second-level
 /// cache.
 const NUMBERS: usize = 2048;
-
-/// One pass over all states.
-type Pass = Box<dyn FnMut()>;
 
 /// A scene compiled without one of the optimisation passes, or with all of them.
 struct Variant {
     name: &'static str,
     /// Timed functions: accelerations of one state after the other, accelerations in a batch, and
     /// all other functions.
-    passes: [Pass; 3],
+    passes: [Pass<'static>; 3],
 }
 
 fn count<const N: usize>() -> usize {
@@ -47,7 +44,7 @@ fn inputs<const N: usize>() -> [Vec<[f64; N]>; 2] {
     [random(1, std::f64::consts::PI), random(2, 9.0)]
 }
 
-fn one_by_one<const N: usize>(model: impl Pendulum<f64> + 'static) -> Pass {
+fn one_by_one<const N: usize>(model: impl Pendulum<f64> + 'static) -> Pass<'static> {
     let [theta, omega] = inputs::<N>();
     let mut alpha = vec![[0.0; N]; theta.len()];
     Box::new(move || {
@@ -58,7 +55,7 @@ fn one_by_one<const N: usize>(model: impl Pendulum<f64> + 'static) -> Pass {
     })
 }
 
-fn batch<const N: usize>(model: impl Pendulum<f64> + 'static) -> Pass {
+fn batch<const N: usize>(model: impl Pendulum<f64> + 'static) -> Pass<'static> {
     let columns = |rows: &[[f64; N]]| -> Vec<Vec<f64>> {
         (0..N).map(|link| rows.iter().map(|row| row[link]).collect()).collect()
     };
@@ -71,7 +68,7 @@ fn batch<const N: usize>(model: impl Pendulum<f64> + 'static) -> Pass {
     })
 }
 
-fn others<const N: usize>(functions: impl Fn(&[f64; N], &[f64; N]) + 'static) -> Pass {
+fn others<const N: usize>(functions: impl Fn(&[f64; N], &[f64; N]) + 'static) -> Pass<'static> {
     let [first, second] = inputs::<N>();
     Box::new(move || {
         for (first, second) in black_box(&first).iter().zip(black_box(&second)) {
@@ -80,42 +77,27 @@ fn others<const N: usize>(functions: impl Fn(&[f64; N], &[f64; N]) + 'static) ->
     })
 }
 
-fn median(mut values: Vec<f64>) -> f64 {
-    values.sort_by(f64::total_cmp);
-    values[values.len() / 2]
-}
-
-/// Returns, for every variant and function, the median of its ratios to the first variant.
-fn ratios(variants: &mut [Variant], turns: usize) -> Vec<[f64; 3]> {
-    let mut ratios = vec![[const { Vec::new() }; 3]; variants.len()];
-    for _ in 0..turns {
-        for kind in 0..3 {
-            let mut first = None;
-            for (variant, ratios) in variants.iter_mut().zip(&mut ratios) {
-                // One run first, so that code and data are in the caches.
-                variant.passes[kind]();
-                let start = Instant::now();
-                variant.passes[kind]();
-                let time = start.elapsed().as_secs_f64();
-                ratios[kind].push(time / *first.get_or_insert(time));
-            }
-        }
-    }
-    ratios.into_iter().map(|kinds| kinds.map(median)).collect()
+/// Returns, for every function and variant, the median of its ratios to the first variant.
+fn ratios(variants: &mut [Variant], turns: usize) -> [Vec<f64>; 3] {
+    [0, 1, 2].map(|kind| {
+        let passes = variants.iter_mut().map(|variant| &mut variant.passes[kind]);
+        let times = in_warm_turns(turns, &mut passes.collect::<Vec<_>>());
+        times.iter().map(|own| own.ratio_to(&times[0])).collect()
+    })
 }
 
 fn main() {
     let turns = std::env::args().nth(1).and_then(|turns| turns.parse().ok());
     let turns = turns.unwrap_or(400);
     for (scene, mut variants) in variants::scenes() {
-        // Warms up the caches and the processor's clock.
+        // Warms up the processor's clock.
         ratios(&mut variants, turns / 10 + 1);
-        println!("{scene}\n");
-        println!("| without | one state | batch | other functions |\n|---|---:|---:|---:|");
         let found = ratios(&mut variants, turns);
-        for (variant, [one, batch, others]) in variants.iter().zip(found) {
-            println!("| {} | {one:.2} | {batch:.2} | {others:.2} |", variant.name);
-        }
-        println!();
+        let table = Table::new(["without", "one state", "batch", "other functions"]);
+        let table = variants.iter().enumerate().fold(table, |table, (index, variant)| {
+            let cells = found.iter().map(|kind| format!("{:.2}", kind[index]));
+            table.row([variant.name.to_owned()].into_iter().chain(cells))
+        });
+        println!("{scene}\n\n{table}");
     }
 }

@@ -1,5 +1,5 @@
 """Trajectories a second of heyoka's batch integrator, on the starts of
-`integration-speed ensemble`: the lanes of one register at a time, refilled in
+`cargo bench -- ensembles`: the lanes of one register at a time, refilled in
 blocks, on one thread."""
 
 import time

@@ -1,4 +1,4 @@
-"""Times of heyoka's Taylor integrator for the motions of `integration-speed`."""
+"""Times of heyoka's Taylor integrator for the motions of `work-precision`."""
 
 import json
 import pathlib
@@ -19,6 +19,19 @@ REFERENCE = pathlib.Path(__file__).parents[2] / "tests/fixtures/reference/trajec
 def committed(problem):
     state = json.loads(REFERENCE.read_text())["problems"][problem]["t"]["10"]
     return np.array([float(x) for x in state["theta"] + state["omega"]])
+
+
+def time_for(points, error):
+    """Time to an error, interpolated on logarithmic scales like that of `work-precision`."""
+    before = None
+    for found, micros in points:
+        if found <= error:
+            if before is None or found == 0:
+                return micros
+            part = np.log(before[0] / error) / np.log(before[0] / found)
+            return before[1] * (micros / before[1]) ** part
+        before = (found, micros)
+    return None
 
 
 def integrator(system, start, tolerance):
@@ -50,8 +63,8 @@ def measure(name, links, start, expected):
         points.append((np.max(np.abs(integrate.state - expected)), best * 1e6))
     cells = []
     for error in ERRORS:
-        reached = [micros for found, micros in points if found <= error]
-        cells.append(f"{min(reached):9.0f}" if reached else f"{'-':>9}")
+        micros = time_for(points, error)
+        cells.append(f"{'-':>9}" if micros is None else f"{micros:9.0f}")
     print(f"{name:28}" + "".join(cells))
 
 

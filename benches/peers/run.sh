@@ -15,11 +15,12 @@ evaluation() { # One state and batches: the tables of docs/performance.md.
     theirs tools.py
 }
 trajectories() { # Time for one motion to a given error: docs/integrators.md.
-    ours integration-speed
+    ours work-precision
     theirs heyoka_trajectory.py
 }
 ensemble() { # 10,000 releases on one thread: docs/integrators.md.
-    ours integration-speed ensemble
+    echo "# cargo bench -- ensembles"
+    cargo bench --quiet -p branched-pendulum-studies -- ensembles
     theirs heyoka_ensemble.py
 }
 solvers() { # Solvers of other crates, and a stiff tree by one of them.

@@ -5,10 +5,10 @@
 
 use std::hint::black_box;
 use std::num::NonZeroUsize;
-use std::time::Instant;
 
 use branched_pendulum::prelude::*;
 use branched_pendulum::system::Workspace;
+use branched_pendulum_timing::{Table, least};
 
 use super::articulated::Articulated;
 use super::states::{SEEDS, random};
@@ -150,15 +150,12 @@ impl States {
         } = self;
         let numbers: usize = alpha.iter().map(Vec::len).sum();
         let passes = (3_000_000 / numbers).clamp(15, 400);
-        let mut least = f64::INFINITY;
-        for _ in 0..passes {
-            let start = Instant::now();
+        let seconds = least(passes, || {
             for ((theta, omega), alpha) in theta.iter().zip(&*omega).zip(&mut *alpha) {
                 evaluate(black_box(theta), black_box(omega), black_box(alpha));
             }
-            least = least.min(start.elapsed().as_secs_f64());
-        }
-        least * 1e9 / numbers as f64
+        });
+        seconds * 1e9 / numbers as f64
     }
 
     fn sines(&mut self) -> f64 {
@@ -181,10 +178,14 @@ impl States {
 /// Returns the table that the program prints.
 #[must_use]
 pub fn table(title: &str, rows: &[Row]) -> String {
-    let heads = ["sines of std", "one thread", "two threads", "articulated"];
-    let heads = heads.map(|head| format!(" {head:>14}"));
-    let mut text = format!("{title}\n\n{:>9}{}\n", "links", heads.concat());
-    for row in rows {
+    let table = Table::new([
+        "links",
+        "sines of std",
+        "one thread",
+        "two threads",
+        "articulated",
+    ]);
+    let table = rows.iter().fold(table, |table, row| {
         let times = [
             Some(row.sines),
             Some(row.one),
@@ -192,8 +193,7 @@ pub fn table(title: &str, rows: &[Row]) -> String {
             Some(row.articulated),
         ];
         let cell = |time: Option<f64>| time.map_or("-".to_owned(), |time| format!("{time:.2}"));
-        let cells = times.map(|time| format!(" {:>14}", cell(time)));
-        text += &format!("{:>9}{}\n", row.links, cells.concat());
-    }
-    text + "\n"
+        table.row([row.links.to_string()].into_iter().chain(times.map(cell)))
+    });
+    format!("{title}\n\n{table}\n")
 }

@@ -1,12 +1,12 @@
 //! Many states of large trees: code in loops, with one state in each lane of the vector registers.
 
 use std::hint::black_box;
-use std::time::Instant;
 
 use branched_pendulum::batch::Batch;
 use branched_pendulum::scalar::Lane;
 use branched_pendulum::system::Workspace;
 use branched_pendulum::{Pendulum, branched_pendulum};
+use branched_pendulum_timing::{Pass, Table, in_turns};
 
 use super::large::{Bush127, Bush500, Loops127, Loops1023};
 use super::measure::states_of;
@@ -74,7 +74,7 @@ fn row<P: Pendulum<f64>, Q: Pendulum<f32>>(scene: &'static str, model: &P, narro
     let omega = random(SEEDS[1], links, states, 9.0);
     let mut alpha = vec![0.0; links];
     let mut workspace = Workspace::new();
-    let mut single = || {
+    let single = || {
         for (theta, omega) in theta.by_state.iter().zip(&omega.by_state) {
             model.accelerations_with(
                 &mut workspace,
@@ -85,19 +85,12 @@ fn row<P: Pendulum<f64>, Q: Pendulum<f32>>(scene: &'static str, model: &P, narro
             );
         }
     };
-    let mut wide = pass(model, &theta.by_link, &omega.by_link, |x| x);
-    let mut short = pass(narrow, &theta.by_link, &omega.by_link, |x| x as f32);
-    // In turns: a change of the processor's clock meets all.
-    let mut least = [f64::INFINITY; 3];
-    for _ in 0..500_000 / (links * states).max(1) * 10 {
-        let passes: [&mut dyn FnMut(); 3] = [&mut single, &mut wide, &mut short];
-        for (least, pass) in least.iter_mut().zip(passes) {
-            let start = Instant::now();
-            pass();
-            *least = least.min(start.elapsed().as_secs_f64() * 1e9 / states as f64);
-        }
-    }
-    let [single, batch, narrow] = least;
+    let wide = pass(model, &theta.by_link, &omega.by_link, |x| x);
+    let short = pass(narrow, &theta.by_link, &omega.by_link, |x| x as f32);
+    let mut passes: [Pass<'_>; 3] = [Box::new(single), Box::new(wide), Box::new(short)];
+    let times = in_turns(500_000 / (links * states).max(1) * 10, &mut passes);
+    let [single, batch, narrow] =
+        [0, 1, 2].map(|pass: usize| times[pass].least() * 1e9 / states as f64);
     Row {
         scene,
         links,
@@ -135,19 +128,14 @@ fn pass<P: Pendulum<T>, T: Lane>(
 /// Returns the table that the program prints.
 #[must_use]
 pub fn table(rows: &[Row]) -> String {
-    let mut text =
+    let table = Table::new(["loops over", "links", "one state", "batch", "f32"]);
+    let table = rows.iter().fold(table, |table, row| {
+        let times = [row.single, row.batch, row.narrow].map(|time| format!("{time:.0}"));
+        let head = [row.scene.to_owned(), row.links.to_string()];
+        table.row(head.into_iter().chain(times))
+    });
+    format!(
         "Many states of large trees: least time for one state, ns. The driven one is in\n\
-        generations; `places` is a table with children at several places of a link.\n\n"
-            .to_owned();
-    text += &format!(
-        "{:>12} {:>6} {:>10} {:>10} {:>10}\n",
-        "loops over", "links", "one state", "batch", "f32"
-    );
-    for row in rows {
-        text += &format!(
-            "{:>12} {:>6} {:>10.0} {:>10.0} {:>10.0}\n",
-            row.scene, row.links, row.single, row.batch, row.narrow
-        );
-    }
-    text
+        generations; `places` is a table with children at several places of a link.\n\n{table}"
+    )
 }

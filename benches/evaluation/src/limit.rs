@@ -8,11 +8,11 @@
 use std::cell::Cell;
 use std::hint::black_box;
 use std::ops::{Add, Div, Mul, Neg, Sub};
-use std::time::Instant;
 
 use branched_pendulum::batch::Batch;
 use branched_pendulum::system::{LinkName, Model};
 use branched_pendulum::{Pendulum, Scalar};
+use branched_pendulum_timing::{Table, least};
 
 use super::measure::Row;
 use super::scenes::{factorization, recursion};
@@ -167,47 +167,25 @@ fn fused_operation() -> f64 {
     let omega = [vec![0.25; STATES]];
     let mut alpha = [vec![0.0; STATES]];
     let mut batch = Batch::new(&model);
-    let mut least = f64::INFINITY;
-    for _ in 0..2000 {
-        let start = Instant::now();
+    let seconds = least(2000, || {
         // The slices have equal lengths.
         let _ = batch.accelerations(0.0, black_box(&theta), black_box(&omega), &mut alpha);
         black_box(&alpha);
-        least = least.min(start.elapsed().as_secs_f64());
-    }
-    least * 1e9 / (STATES * CHAINS * LENGTH) as f64
+    });
+    seconds * 1e9 / (STATES * CHAINS * LENGTH) as f64
 }
 
 /// Returns the table of the limits of batches, and of the part of them that was reached.
 #[must_use]
 pub fn table(rows: &[Row]) -> String {
     let operation = fused_operation();
-    let products = [
-        [
-            products(&factorization::Paper::new()),
-            products(&recursion::Paper::new()),
-        ],
-        [
-            products(&factorization::Tree7::new()),
-            products(&recursion::Tree7::new()),
-        ],
-        [
-            products(&factorization::Tree15::new()),
-            products(&recursion::Tree15::new()),
-        ],
-        [
-            products(&factorization::Tree31::new()),
-            products(&recursion::Tree31::new()),
-        ],
-        [
-            products(&factorization::Tree127::new()),
-            products(&recursion::Tree127::new()),
-        ],
-    ];
-    let mut text = format!(
-        "Limit of batches: products of one state (a sine with its cosine as 19), at {operation:.4} ns \
-         for\na fused operation on one number, and the part of the limit that batches reach.\n\n\
-         {:12}{:>16}{:>12}{:>10}{:>16}{:>12}{:>10}\n",
+    macro_rules! products {
+        ($($scene:ident)*) => {
+            [$([products(&factorization::$scene::new()), products(&recursion::$scene::new())]),*]
+        };
+    }
+    let products = products!(Paper Tree7 Tree15 Tree31 Tree127);
+    let table = Table::new([
         "links",
         "products, fact.",
         "limit, ns",
@@ -215,15 +193,25 @@ pub fn table(rows: &[Row]) -> String {
         "products, rec.",
         "limit, ns",
         "reached",
-    );
-    for (row, products) in rows.iter().zip(products) {
-        text += &format!("{:12}", format!("{} {}", row.links, row.scene));
-        for (products, time) in products.into_iter().zip([row.times[3], row.times[4]]) {
-            let limit = products * operation;
-            let reached = time.map_or("-".to_owned(), |time| format!("{:.2}", limit / time));
-            text += &format!("{products:>16}{limit:>12.2}{reached:>10}");
-        }
-        text += "\n";
-    }
-    text
+    ]);
+    let table = rows
+        .iter()
+        .zip(products)
+        .fold(table, |table, (row, products)| {
+            let cells = products.into_iter().zip([row.times[3], row.times[4]]);
+            let cells = cells.flat_map(|(products, time)| {
+                let limit = products * operation;
+                let reached = time.map_or("-".to_owned(), |time| format!("{:.2}", limit / time));
+                [products.to_string(), format!("{limit:.2}"), reached]
+            });
+            table.row(
+                [format!("{} {}", row.links, row.scene)]
+                    .into_iter()
+                    .chain(cells),
+            )
+        });
+    format!(
+        "Limit of batches: products of one state (a sine with its cosine as 19), at {operation:.4} ns \
+         for\na fused operation on one number, and the part of the limit that batches reach.\n\n{table}"
+    )
 }

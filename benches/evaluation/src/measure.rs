@@ -1,11 +1,11 @@
 //! The contenders and the clock.
 
 use std::hint::black_box;
-use std::time::Instant;
 
 use branched_pendulum::Pendulum;
 use branched_pendulum::batch::Batch;
 use branched_pendulum::scalar::Lane;
+use branched_pendulum_timing::{Pass, Times, in_warm_turns};
 
 use super::articulated::Articulated;
 use super::by_hand::ByHand;
@@ -45,9 +45,6 @@ pub struct Row {
     pub times: [Option<f64>; CONTENDERS.len()],
 }
 
-/// One pass over all states, which is timed as a whole.
-type Pass = Box<dyn FnMut()>;
-
 /// Measures all scenes: medians of `repeats` passes. The implementations are timed alternately, so
 /// that a change of the processor's clock affects all of them.
 #[must_use]
@@ -82,7 +79,7 @@ pub fn all(repeats: usize) -> Vec<Row> {
     ]
 }
 
-type Passes = [Option<Pass>; CONTENDERS.len()];
+type Passes = [Option<Pass<'static>>; CONTENDERS.len()];
 
 /// States in one pass.
 #[must_use]
@@ -125,36 +122,25 @@ fn row<const N: usize>(
     passes[9] = Some(Box::new(states::<N>(move |theta, omega, alpha| {
         dense.accelerations(theta, omega, alpha);
     })));
-    let mut times: [Vec<f64>; CONTENDERS.len()] = Default::default();
     // The system's sines by themselves: they have branches, which the processor
     // learns from pass to pass where nothing comes between. New angles take 17 ns
     // each instead of 10: the ratios are to the least that they can take.
-    let (sines, others) = (0..1, 1..CONTENDERS.len());
-    for contenders in [sines, others] {
-        for _ in 0..repeats {
-            for contender in contenders.clone() {
-                let Some(pass) = &mut passes[contender] else {
-                    continue;
-                };
-                // Others have taken the cache.
-                pass();
-                let start = Instant::now();
-                pass();
-                let time = start.elapsed().as_secs_f64() * 1e9 / count::<N>() as f64;
-                times[contender].push(time);
-            }
-        }
-    }
+    let (sines, others) = passes.split_at_mut(1);
+    let measured = [sines, others].map(|contenders| {
+        let mut present: Vec<&mut Pass<'_>> = contenders.iter_mut().flatten().collect();
+        in_warm_turns(repeats, &mut present)
+    });
+    let mut medians = measured.iter().flatten().map(Times::median);
+    let time = |pass: &Option<Pass<'_>>| {
+        let seconds = pass.as_ref().and_then(|_| medians.next());
+        seconds.map(|seconds| 1e9 * seconds / count::<N>() as f64)
+    };
+    let times = passes.each_ref().map(time);
     Row {
         scene,
         links: N,
-        times: times.map(median),
+        times,
     }
-}
-
-fn median(mut values: Vec<f64>) -> Option<f64> {
-    values.sort_by(f64::total_cmp);
-    values.get(values.len() / 2).copied()
 }
 
 /// Creates a pass that evaluates only the standard library's sine and cosine of all angles.
@@ -185,24 +171,24 @@ fn states<const N: usize>(
     }
 }
 
-fn by_hand() -> Pass {
+fn by_hand() -> Pass<'static> {
     let model = ByHand::default();
     Box::new(states::<3>(move |theta, omega, alpha| {
         *alpha = model.accelerations(theta, omega);
     }))
 }
 
-fn one_by_one<const N: usize>(model: impl Pendulum<f64> + 'static) -> Pass {
+fn one_by_one<const N: usize>(model: impl Pendulum<f64> + 'static) -> Pass<'static> {
     Box::new(states::<N>(move |theta, omega, alpha| {
         model.accelerations_into(0.0, theta, omega, alpha);
     }))
 }
 
-fn doubles<const N: usize>(model: impl Pendulum<f64> + 'static) -> Pass {
+fn doubles<const N: usize>(model: impl Pendulum<f64> + 'static) -> Pass<'static> {
     Box::new(batch::<N, _, _>(model, |x| x))
 }
 
-fn singles<const N: usize>(model: impl Pendulum<f32> + 'static) -> Pass {
+fn singles<const N: usize>(model: impl Pendulum<f32> + 'static) -> Pass<'static> {
     Box::new(batch::<N, _, _>(model, |x| x as f32))
 }
 

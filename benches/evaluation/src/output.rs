@@ -2,56 +2,58 @@
 
 use branched_pendulum::scalar::InstructionSet;
 use branched_pendulum_charts::{Axis, Chart, Panel, Series};
+use branched_pendulum_timing::Table;
 
 use super::accuracy::Errors;
 use super::large;
 use super::measure::{CONTENDERS, Row};
 
-/// Returns the table that the program prints: times, and below each row their ratios to the times
-/// of the standard library's sines and cosines.
+/// Returns the table that the program prints: times, with their ratios to the times of the standard
+/// library's sines and cosines in parentheses.
 #[must_use]
 pub fn table(rows: &[Row]) -> String {
-    let mut text = format!(
+    let rows = rows.iter().map(|row| {
+        let sines = row.times[0].unwrap_or(f64::NAN);
+        let cell = |time: f64| format!("{time:.2} ({:.3})", time / sines);
+        (row.links, row.scene, row.times.map(|time| time.map(cell)))
+    });
+    format!(
         "Median time for the accelerations of one state, ns, and over that of the \
-         system's\nsines and cosines alone. Batches with {}.\n\n",
+         system's\nsines and cosines alone. Batches with {}.\n\n{}",
         InstructionSet::widest(),
-    );
-    text += &line("links", CONTENDERS.map(str::to_owned));
-    for row in rows {
-        let cell = |time: Option<f64>| time.map_or("-".to_owned(), |time| format!("{time:.2}"));
-        let ratio = |time: Option<f64>| {
-            let ratio = time.zip(row.times[0]).map(|(time, sines)| time / sines);
-            ratio.map_or(String::new(), |ratio| format!("({ratio:.3})"))
-        };
-        let name = format!("{} {}", row.links, row.scene);
-        text += &(line(&name, row.times.map(cell)) + line("", row.times.map(ratio)).as_str());
-    }
-    text
+        of_contenders(rows)
+    )
 }
 
-/// Returns the table of errors: the largest in units of the conditioning bound, and below each row
-/// the medians in units in the last place.
+/// Returns the table of errors: the largest in units of the conditioning bound, with the medians in
+/// units in the last place in parentheses.
 #[must_use]
 pub fn errors(rows: &[Errors]) -> String {
-    let mut text =
+    let rows = rows.iter().map(|row| {
+        let cell = |index: usize| {
+            let (worst, ulps) = row.worst[index].zip(row.ulps[index])?;
+            Some(format!("{worst:.2} ({ulps:.1})"))
+        };
+        (row.links, row.scene, std::array::from_fn(cell))
+    });
+    format!(
         "Worst error in units of u |M⁻¹| (|M| |ω̇| + |b|), and median in ulps. Lanes have\n\
-         the bits of single states.\n\n"
-            .to_owned();
-    text += &line("links", CONTENDERS.map(str::to_owned));
-    for row in rows {
-        let worst =
-            |error: Option<f64>| error.map_or("-".to_owned(), |error| format!("{error:.2}"));
-        let ulps = |ulps: Option<f64>| ulps.map_or(String::new(), |ulps| format!("({ulps:.1})"));
-        let name = format!("{} {}", row.links, row.scene);
-        text += &(line(&name, row.worst.map(worst)) + line("", row.ulps.map(ulps)).as_str());
-    }
-    text
+         the bits of single states.\n\n{}",
+        of_contenders(rows)
+    )
 }
 
-/// Returns a line of a table, with a cell for each implementation.
-fn line(name: &str, cells: [String; CONTENDERS.len()]) -> String {
-    let cells = cells.map(|cell| format!(" {cell:>14}"));
-    format!("{name:12}{}\n", cells.concat())
+/// Cells of the implementations for a scene, after its number of links and its name.
+type Cells = (usize, &'static str, [Option<String>; CONTENDERS.len()]);
+
+/// Returns a table with a column for each implementation.
+fn of_contenders(rows: impl Iterator<Item = Cells>) -> Table {
+    let mut heads = ["links"; CONTENDERS.len() + 1];
+    heads[1..].copy_from_slice(&CONTENDERS);
+    rows.fold(Table::new(heads), |table, (links, scene, cells)| {
+        let cells = cells.map(|cell| cell.unwrap_or("-".to_owned()));
+        table.row([format!("{links} {scene}")].into_iter().chain(cells))
+    })
 }
 
 /// Returns the chart of the time for one link against the number of links.

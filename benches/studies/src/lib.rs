@@ -2,8 +2,7 @@
 //!
 //! Each program in `src/bin` only calls one module of this library.
 
-pub mod advise;
-pub mod integration_speed;
+pub mod accuracy_cost;
 pub mod scenes;
 pub mod solvers;
 pub mod stability_map;

@@ -55,15 +55,8 @@ impl Search {
             .fit_by_windows(&fitted, self.window, None, &observer)?;
         let failure = found.one_motion.as_ref().err().map(ToString::to_string);
         let driving = found.one_motion.as_ref().ok().and_then(driving);
-        let errors = match (found.motion(), &found.one_motion) {
-            (None, _) => AngleErrors::default(),
-            (Some(motion), Ok(_)) => self.task.errors(motion, &self.record)?,
-            // Constants that were not found need not be those of a motion.
-            (Some(motion), Err(_)) => self
-                .task
-                .errors(motion, &self.record)
-                .unwrap_or_else(|_| AngleErrors::missing(&self.record)),
-        };
+        let errors = self.task.motion_errors(&found, &self.record)?;
+        let errors = errors.unwrap_or_else(|| AngleErrors::missing(&self.record));
         // A chaotic motion is lost as one, and has its windows.
         let fit = match found.result() {
             Ok(fit) => fit.clone(),

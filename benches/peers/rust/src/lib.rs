@@ -4,7 +4,6 @@
 #[rustfmt::skip]
 #[path = "../expanded.rs"]
 pub mod scenes;
-#[path = "../../../studies/src/integration_speed/measure.rs"]
 pub mod measure;
 pub mod work_precision;
 

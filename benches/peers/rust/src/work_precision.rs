@@ -1,5 +1,4 @@
-//! Motions of `integration-speed` that last ten seconds, by the names that
-//! [`measure`](crate::measure) uses.
+//! Motions of the study `work-precision` that last ten seconds.
 
 /// Motions, with their states at the end.
 pub mod reference {

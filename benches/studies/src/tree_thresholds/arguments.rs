@@ -10,7 +10,8 @@ use branched_pendulum_frame::command_line::{number, numbers};
 /// 6 generations, two or three rods on each rod, and several ratios of masses and lengths.
 ///
 /// The trees have up to 364 rods, but their equations with all copies in phase have only
-/// one link per generation. For your own tree, use `branched-pendulum growth`.
+/// one link per generation. For your own tree, use `branched-pendulum growth`, and
+/// `branched-pendulum theory` for a prediction.
 ///
 /// Every value is computed with two tolerances; if the results differ by more than 1 %,
 /// it counts as not determined. Angles between those of the scan are not examined.
@@ -41,10 +42,6 @@ pub struct Arguments {
         value_parser = number(1e-12..=1e-3, "")
     )]
     pub tolerance: f64,
-    /// predicts growth by resonant normal forms in place of the scan, up to the angle at which a
-    /// release is refused, and simulates its rate
-    #[arg(verbatim_doc_comment, long, conflicts_with_all = ["angles", "level", "tolerance"])]
-    pub theory: bool,
 }
 
 impl branched_pendulum_frame::Arguments for Arguments {

@@ -1,14 +1,11 @@
-//! Growth thresholds of trees given by a rule, computed by the derived equations for small
-//! differences.
+//! Growth thresholds of trees given by a rule, by the equations for small differences.
 //!
 //! - [`arguments`]: the command line,
 //! - [`trees`]: the trees and their thresholds,
-//! - [`theory`]: growth that the normal form predicts in them,
 //! - [`chart`]: the chart.
 
 pub mod arguments;
 pub mod chart;
-pub mod theory;
 pub mod trees;
 
 use std::fmt::Write;
@@ -36,9 +33,6 @@ pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
                 }));
             }
         }
-    }
-    if arguments.theory {
-        return theory::run(&rules, job);
     }
     let progress = job.progress(rules.len());
     progress.begin("trees");

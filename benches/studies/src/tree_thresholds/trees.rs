@@ -1,52 +1,11 @@
 //! The threshold of the first branching, for trees given by a rule: 2 to 6 generations of rods, two
 //! or three children per rod, and several ratios of masses and lengths.
 
-use branched_pendulum::Transverse;
-use branched_pendulum::analysis::growth::{Growth, frequency_at_rest};
 use branched_pendulum::prelude::*;
+use branched_pendulum_frame::Failure;
+use branched_pendulum_trees::{DifferenceGrowth, PendulumTree};
 
 use super::arguments::Arguments;
-use branched_pendulum::system::TransverseOde;
-use branched_pendulum_frame::Failure;
-
-/// Trees of `generations` generations with all copies in phase and two children per rod.
-macro_rules! trees {
-    ($($name:ident, $parameters:ident, $count:tt;)*) => {
-        $(
-            /// A tree of rods with all copies in phase.
-            #[branched_pendulum(
-                gravity = 9.80665,
-                tree: generations(count = $count, branching = 2, shape = rod, mass = 0.12, length = 0.3,
-                    mass_ratio = mass_ratio, length_ratio = length_ratio),
-                in_phase(tree),
-                emit(transverse),
-            )]
-            pub struct $name;
-        )*
-
-        /// Numbers of generations.
-        pub const GENERATIONS: &[usize] = &[$($count),*];
-
-        fn factors(rule: Rule, arguments: &Arguments) -> Result<Vec<Factor>, Failure> {
-            let mass_ratio = rule.pair_ratio();
-            match rule.generations {
-                $($count => {
-                    let parameters = $parameters { mass_ratio, length_ratio: rule.length_ratio };
-                    along(&$name::new(parameters)?, arguments)
-                })*
-                _ => Ok(Vec::new()),
-            }
-        }
-    };
-}
-
-trees! {
-    Two, TwoParameters, 2;
-    Three, ThreeParameters, 3;
-    Four, FourParameters, 4;
-    Five, FiveParameters, 5;
-    Six, SixParameters, 6;
-}
 
 /// A tree by rule.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -62,12 +21,27 @@ pub struct Rule {
 }
 
 impl Rule {
-    /// Returns the ratio of masses of the tree with two children per rod that has the same motion.
-    /// In phase, k copies move like one rod with k times the mass; and differences of the first
-    /// branching obey the equations of one of its subtrees, in which only the ratios of masses
-    /// matter.
-    pub fn pair_ratio(&self) -> f64 {
-        self.mass_ratio * f64::from(self.copies) / 2.0
+    /// Returns the description of a tree of two branches with the same motion, in which each branch
+    /// is a chain: its generations in phase. In phase, k rods move like one rod with k times the
+    /// mass; and differences of the first branching obey the equations of one of its subtrees, in
+    /// which only the ratios of masses matter.
+    pub fn description(&self) -> String {
+        let mut below = String::new();
+        for generation in (0..self.generations).rev() {
+            let power = generation as i32;
+            let together = f64::from(self.copies) * self.mass_ratio;
+            // Half of the first generation is in each branch.
+            let part = if generation == 0 { 1.0 } else { 0.5 };
+            let mass = 0.12 * part * together.powi(power);
+            let length = 0.3 * self.length_ratio.powi(power);
+            let copies = if generation == 1 { " * 2" } else { "" };
+            let rod = format!("rod{generation}: rod(mass = {mass:e}, length = {length:e})");
+            below = match below.as_str() {
+                "" => format!("{rod}{copies}"),
+                below => format!("{rod} [{below}]{copies}"),
+            };
+        }
+        format!("gravity = 9.80665, {below}")
     }
 }
 
@@ -95,6 +69,8 @@ pub const PERIODS: f64 = 12.58;
 /// Number of angles that are computed together.
 const BLOCK: usize = 16;
 
+/// Numbers of generations.
+pub const GENERATIONS: [usize; 5] = [2, 3, 4, 5, 6];
 /// Numbers of copies.
 pub const COPIES: [u32; 2] = [2, 3];
 /// Ratios of masses.
@@ -102,46 +78,35 @@ pub const MASSES: [f64; 3] = [0.25, 0.5, 1.0];
 /// Ratios of lengths.
 pub const LENGTHS: [f64; 3] = [0.5, 0.7, 1.0];
 
-/// Returns the equations of differences of the first branching.
-fn first_branching<P: Transverse<f64>>(model: &P) -> Result<TransverseOde<&P>, Failure> {
-    TransverseOde::new(model, 0).ok_or(Failure::NoPair)
-}
-
-/// Returns a release from rest in which all rods except the root are vertical, with a unit
-/// difference in all rods of the branching.
-fn at_rest<P: Transverse<f64>>(ode: &TransverseOde<&P>, model: &P, root: f64) -> State<f64> {
-    let mut angles = vec![0.0; model.links()];
-    angles[0] = root.to_radians();
-    angles.resize(model.links() + ode.sector().links, 1.0);
-    State::at_rest(0.0, &angles)
-}
-
 /// Computes the growth factors for releases from rest in which the root has each angle of the scan
 /// and all others are vertical. Angles ascend and end soon after the threshold, since motions
 /// beyond it are chaotic and expensive.
-fn along<P: Transverse<f64> + Sync>(
-    model: &P,
-    arguments: &Arguments,
-) -> Result<Vec<Factor>, Failure> {
-    let ode = first_branching(model)?;
-    let releases = arguments.angles_deg.iter();
-    let releases: Vec<_> = releases
-        .map(|degrees| (ode, at_rest(&ode, model, *degrees)))
-        .collect();
-    let frequency_hz = frequency_at_rest(&ode);
-    let growth = Growth {
-        frequency_hz,
-        horizons: vec![PERIODS / frequency_hz],
-        tolerance: arguments.tolerance,
+fn factors(rule: Rule, arguments: &Arguments) -> Result<Vec<Factor>, Failure> {
+    let description = rule.description();
+    let tree = PendulumTree::parse(&description);
+    let tree = tree.map_err(|source| Failure::tree(&description, source))?;
+    let copies = tree.all_copies();
+    let growth = |horizons| {
+        let growth = DifferenceGrowth::new(&tree, &copies, horizons, arguments.tolerance);
+        growth.map_err(|source| Failure::tree(&description, source))
     };
+    let frequency_hz = growth(Vec::new())?.growth().frequency_hz;
+    let growth = growth(vec![PERIODS / frequency_hz])?;
+    let release = |degrees: &f64| {
+        let mut angles = vec![0.0; tree.links()];
+        angles[0] = degrees.to_radians();
+        State::at_rest(0.0, &angles)
+    };
+    let releases: Vec<State<f64>> = arguments.angles_deg.iter().map(release).collect();
     let mut factors: Vec<Factor> = Vec::new();
     for block in releases.chunks(BLOCK) {
         if factors.iter().any(|(factor, _)| *factor >= arguments.level) {
             break;
         }
-        let grown = growth.in_lanes(&Ensemble::new(), block).into_iter();
+        let grown = growth.in_lanes(&Ensemble::new(), block);
+        let grown = grown.map_err(|source| Failure::tree(&description, source))?;
         // A motion that cannot be followed is not determined.
-        factors.extend(grown.map(|grown| {
+        factors.extend(grown.into_iter().map(|grown| {
             let factor = grown.ok().and_then(|grown| grown.factors.first().copied());
             factor.map_or((f64::INFINITY, false), |f| (f.value, f.is_determined()))
         }));

@@ -5,7 +5,7 @@ use branched_pendulum::system::TaylorOde;
 use branched_pendulum_advice::WorkPrecision;
 
 use super::reference::{Problem, Tree};
-use crate::scenes::{BranchedDouble, Rods};
+use crate::scenes::{BranchedDouble, FifteenRods, Rods, ThirtyOneRods};
 use crate::solvers::configured;
 use branched_pendulum_frame::Progress;
 
@@ -15,6 +15,10 @@ pub fn measure(problem: &Problem, progress: &Progress) -> WorkPrecision {
     match problem.tree {
         Tree::Paper => measure_on(&AbsoluteAngles(&BranchedDouble::new()), problem, progress),
         Tree::Rods => measure_on(&AbsoluteAngles(&Rods::new()), problem, progress),
+        Tree::FifteenRods => measure_on(&AbsoluteAngles(&FifteenRods::new()), problem, progress),
+        Tree::ThirtyOneRods => {
+            measure_on(&AbsoluteAngles(&ThirtyOneRods::new()), problem, progress)
+        }
     }
 }
 

@@ -14,13 +14,18 @@ const LEVELS: [f64; 5] = [1e-3, 1e-6, 1e-9, 1e-12, 1e-14];
 /// Name of a problem, and its runs.
 pub type Runs = (&'static str, WorkPrecision);
 
-/// Returns the table that the program prints: times, with the shortest marked.
-pub fn table(problems: &[Runs], drifts: &[EnergyDrift]) -> String {
+/// Returns the table of times, with the shortest marked.
+pub fn table(problems: &[Runs]) -> String {
     let mut text = String::from("Time in µs to an error at the end; * the shortest.\n");
     for (name, measured) in problems {
         text += &format!("\n{name}\n{}", measured.table(&LEVELS));
     }
-    text.push_str("\nRelative error of the energy in 1,000 s of regular motion\n\n");
+    text
+}
+
+/// Returns the table of the energy's errors.
+pub fn drift_table(drifts: &[EnergyDrift]) -> String {
+    let mut text = String::from("\nRelative error of the energy in 1,000 s of regular motion\n\n");
     for drift in drifts {
         let worst = |part: &[f64]| part.iter().copied().fold(0.0_f64, f64::max);
         let (first, last) = (worst(&drift.errors[..1]), worst(&drift.errors[99..]));

@@ -1,11 +1,12 @@
 //! Reference trajectories: for the paper's apparatus those of
-//! `tests/fixtures/reference/trajectories.json`; for seven rods, which the file does not contain,
-//! Taylor series with twice the number of digits.
+//! `tests/fixtures/reference/trajectories.json`; for rods, which the file does not contain, Taylor
+//! series with twice the number of digits.
 
 use branched_pendulum::prelude::*;
 use branched_pendulum::scalar::Double;
+use branched_pendulum::system::TaylorPendulum;
 
-use crate::scenes::Rods;
+use crate::scenes::{FifteenRods, Rods, ThirtyOneRods};
 use branched_pendulum_frame::Failure;
 
 /// Contents of the file when the program was built.
@@ -18,6 +19,10 @@ pub enum Tree {
     Paper,
     /// Seven rods.
     Rods,
+    /// Fifteen rods.
+    FifteenRods,
+    /// Thirty-one rods.
+    ThirtyOneRods,
 }
 
 /// A motion from rest, with its state at a given time.
@@ -35,27 +40,62 @@ pub struct Problem {
     pub expected: Vec<f64>,
 }
 
-/// Returns the problems whose duration (s) is one of `ends`: regular motion for a short and a long
-/// time; chaotic motion near the threshold, for as long as `f64` predicts it well and for as long
-/// as it predicts it at all; and seven rods.
+/// Returns the problems of small trees: regular motion for a short and a long time; chaotic motion
+/// near the threshold, for as long as `f64` predicts it well and for as long as it predicts it at
+/// all; and seven rods.
 ///
 /// # Errors
-/// [`Failure::Integration`]if the reference of the rods could not be computed.
-pub fn problems(ends: &[f64]) -> Result<Vec<Problem>, Failure> {
+/// [`Failure::Integration`] if the reference of the rods could not be computed.
+pub fn problems() -> Result<Vec<Problem>, Failure> {
+    let (tree, model) = (Tree::Rods, Rods::<Double>::default());
     let mut problems = papers();
-    problems.retain(|problem| ends.contains(&problem.end));
-    for (name, end) in [("seven rods, 10 s", 10.0), ("seven rods, 100 s", 100.0)] {
-        if ends.contains(&end) {
-            problems.push(Problem {
-                name,
-                tree: Tree::Rods,
-                start: RODS.to_vec(),
-                end,
-                expected: rods_at(end, TOLERANCE)?,
-            });
-        }
-    }
+    problems.push(rods("seven rods, 10 s", tree, &model, &RODS, 10.0)?);
+    problems.push(rods("seven rods, 100 s", tree, &model, &RODS, 100.0)?);
     Ok(problems)
+}
+
+/// Returns the problems of larger trees: motions of fifteen and of thirty-one rods.
+///
+/// # Errors
+/// [`Failure::Integration`] if a reference could not be computed.
+pub fn large_problems() -> Result<Vec<Problem>, Failure> {
+    let angle = |link: usize| match link {
+        0 => 0.08,
+        _ => 0.005 * ((7 * link % 5) as f64 - 2.0),
+    };
+    let start: Vec<f64> = (0..31).map(angle).collect();
+    let (fifteen, thirty_one) = (
+        FifteenRods::<Double>::default(),
+        ThirtyOneRods::<Double>::default(),
+    );
+    let (half, whole) = (&start[..15], &start[..]);
+    Ok(vec![
+        rods(
+            "fifteen rods, 10 s",
+            Tree::FifteenRods,
+            &fifteen,
+            half,
+            10.0,
+        )?,
+        rods(
+            "thirty-one rods, 10 s",
+            Tree::ThirtyOneRods,
+            &thirty_one,
+            whole,
+            10.0,
+        )?,
+    ])
+}
+
+/// Returns releases of the paper's pendulum from 40° to 55°, with one child a thousandth of a
+/// radian to the left and the other to the right of the vertical.
+#[must_use]
+pub fn near_threshold(count: u32) -> Vec<State<f64>> {
+    let step = 15.0 / f64::from(count.max(2) - 1);
+    (0..count)
+        .map(|i| (40.0 + step * f64::from(i)).to_radians())
+        .map(|angle| State::at_rest(0.0, &[angle, 1e-3, -1e-3]))
+        .collect()
 }
 
 /// The problems of the file.
@@ -87,20 +127,39 @@ pub const RODS: [f64; 7] = [0.08, 0.005, 0.002, -0.001, -0.005, 0.0015, -0.003];
 /// Tolerance of the rods' reference.
 const TOLERANCE: f64 = 1e-24;
 
-/// Computes angles (rad) and velocities (rad/s) of the rods at the time `end` (s), from Taylor
-/// series of the emitted equations with 31 digits (double-double numbers).
+fn rods<P: TaylorPendulum<Double>>(
+    name: &'static str,
+    tree: Tree,
+    model: &P,
+    start: &[f64],
+    end: f64,
+) -> Result<Problem, Failure> {
+    Ok(Problem {
+        name,
+        tree,
+        start: start.to_vec(),
+        end,
+        expected: end_of(model, start, end, TOLERANCE)?,
+    })
+}
+
+/// Computes angles (rad) and velocities (rad/s) of a tree at the time `end` (s) after a release from
+/// rest, from Taylor series of the emitted equations with 31 digits (double-double numbers).
 ///
 /// # Errors
 /// [`Failure::Integration`].
-pub fn rods_at(end: f64, tolerance: f64) -> Result<Vec<f64>, Failure> {
-    let model = Rods::<Double>::default();
-    let start = State::at_rest(Double::from_f64(0.0), &RODS.map(Double::from_f64));
+pub fn end_of<P: TaylorPendulum<Double>>(
+    model: &P,
+    start: &[f64],
+    end: f64,
+    tolerance: f64,
+) -> Result<Vec<f64>, Failure> {
+    let wide: Vec<Double> = start.iter().copied().map(Double::from_f64).collect();
+    let state = State::at_rest(Double::from_f64(0.0), &wide);
     let method = Taylor::new(Options::with_tolerance(Double::from_f64(tolerance)));
-    let ode = AbsoluteAngles(&model);
-    let end = Double::from_f64(end);
     let solution = method
-        .run(&ode, &start, end)
-        .map_err(|error| Failure::integration(RODS[0].to_degrees(), error))?;
+        .run(&AbsoluteAngles(model), &state, Double::from_f64(end))
+        .map_err(|error| Failure::integration(start[0].to_degrees(), error))?;
     let values = solution.state.values.iter();
     Ok(values.map(|value| value.high()).collect())
 }

@@ -3,7 +3,7 @@
 
 use super::{run, text};
 
-const INTEGRATION_SPEED: &str = env!("CARGO_BIN_EXE_integration-speed");
+const ACCURACY_COST: &str = env!("CARGO_BIN_EXE_accuracy-cost");
 const STABILITY_MAP: &str = env!("CARGO_BIN_EXE_stability-map");
 const SWAYING_BRANCH: &str = env!("CARGO_BIN_EXE_swaying-branch");
 const TREE_THRESHOLDS: &str = env!("CARGO_BIN_EXE_tree-thresholds");
@@ -12,7 +12,11 @@ const WORK_PRECISION: &str = env!("CARGO_BIN_EXE_work-precision");
 #[test]
 fn mistakes_are_named() {
     for (program, line, message) in [
-        (INTEGRATION_SPEED, "--output", "a value is required"),
+        (
+            ACCURACY_COST,
+            "--scene paper",
+            "unexpected argument '--scene'",
+        ),
         (
             STABILITY_MAP,
             "--output",
@@ -49,7 +53,7 @@ fn mistakes_are_named() {
 #[test]
 fn help_tells_usage_and_defaults() {
     for (program, reported) in [
-        (INTEGRATION_SPEED, "Usage: integration-speed"),
+        (ACCURACY_COST, "Usage: accuracy-cost"),
         (STABILITY_MAP, "Usage: stability-map"),
         (TREE_THRESHOLDS, "[default: 5:90:0.05]"),
         (WORK_PRECISION, "Usage: work-precision"),

@@ -3,9 +3,8 @@
 
 use std::process::{Command, Output};
 
-mod advise;
 mod command_lines;
-mod integration_speed;
+mod ensembles;
 mod solvers;
 mod stability_map;
 mod swaying_branch;

@@ -5,7 +5,7 @@ use super::convergence::SearchFailure;
 use super::effort::{Effort, SearchObserver};
 use super::error::IdentificationError;
 use super::family::Family;
-use super::fit::{Fit, Unfound};
+use super::fit::{AngleErrors, Fit, Unfound};
 use super::problem::{Identification, Shooting};
 use super::record::AngleRecord;
 
@@ -119,6 +119,25 @@ impl<F: Family> Identification<F> {
             in_windows,
             one_motion,
         })
+    }
+
+    /// Compares the fit of one motion with a record: the fitted one, or a longer one that also has
+    /// the times after it. `None` if the search ended with windows, or if it found no valid result
+    /// and its best values have no motion.
+    ///
+    /// # Errors
+    ///
+    /// As [`errors`](Self::errors), for a valid result.
+    pub fn motion_errors(
+        &self,
+        found: &WindowedFit,
+        record: &AngleRecord,
+    ) -> Result<Option<AngleErrors>, IdentificationError> {
+        let errors = found.motion().map(|fit| self.errors(fit, record));
+        match &found.one_motion {
+            Ok(_) => errors.transpose(),
+            Err(_) => Ok(errors.and_then(Result::ok)),
+        }
     }
 
     fn windows(

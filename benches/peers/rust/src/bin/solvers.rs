@@ -1,5 +1,5 @@
 //! Times of ODE solvers of other crates (Dop853 of `ode_solvers`, Tsit45 of `diffsol`) for the
-//! motions of `integration-speed`, with our emitted accelerations, and of our methods in the same
+//! motions of `work-precision`, with our emitted accelerations, and of our methods in the same
 //! program.
 
 use std::error::Error;
@@ -24,7 +24,7 @@ type Measured = Result<Vec<Point>, Box<dyn Error>>;
 /// A method, with its name.
 type Contender<'a> = (&'static str, Box<dyn Fn() -> Measured + 'a>);
 
-/// Measures a method like `points` of `integration-speed`. `run` returns the time (µs) and the
+/// Measures a method like [`points`]. `run` returns the time (µs) and the
 /// state at the end for a tolerance, or `None` if the method refuses the tolerance.
 fn scan(problem: &Problem, run: impl Fn(f64) -> Option<(f64, Vec<f64>)>) -> Measured {
     let point = |third: i32| {

@@ -145,12 +145,7 @@ impl<'a> Study<'a> {
         let task = identification(self.arguments, self.unknowns, law);
         let poorer = poorer.map(|poorer| &poorer.found);
         let found = task.fit_by_windows(&fitted, WINDOW, poorer, observer)?;
-        let errors = |fit| task.errors(fit, &self.measurement.record);
-        // Constants that were not found need not be those of a motion.
-        let errors = match &found.one_motion {
-            Ok(_) => found.motion().map(errors).transpose()?,
-            Err(_) => found.motion().and_then(|fit| errors(fit).ok()),
-        };
+        let errors = task.motion_errors(&found, &self.measurement.record)?;
         let window = found.window().unwrap_or(WINDOW);
         let in_windows = |record| task.window_errors(best(&found.in_windows), record, window);
         let windows = match &found.in_windows {

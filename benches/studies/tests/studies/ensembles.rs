@@ -1,30 +1,9 @@
-//! The problems of `integration-speed`.
+//! Accuracy of the ensembles whose speed `cargo bench -- ensembles` measures.
 
 use branched_pendulum::integrate::IntegrationError;
 use branched_pendulum::prelude::*;
-use branched_pendulum_studies::integration_speed::ensemble::near_threshold;
-use branched_pendulum_studies::integration_speed::measure::{Point, points, time_for};
-use branched_pendulum_studies::scenes::{BranchedDouble, Rods};
-use branched_pendulum_studies::work_precision::reference::problems;
-
-/// The error goes down with the tolerance to where it is said to.
-#[test]
-fn errors_fall_to_rounding() {
-    let problems = problems(&[10.0]).unwrap();
-    let named = |name| problems.iter().find(|p| p.name == name).unwrap();
-    let (regular, rods) = (named("regular, 10 s"), named("seven rods, 10 s"));
-    let method = |tolerance| Taylor::new(Options::with_tolerance(tolerance));
-    for points in [
-        points(&AbsoluteAngles(&BranchedDouble::new()), regular, 1, method).unwrap(),
-        points(&AbsoluteAngles(&Rods::new()), rods, 1, method).unwrap(),
-    ] {
-        assert!(points[0].error > 1e-4, "{points:?}");
-        let least = points
-            .iter()
-            .fold(1.0_f64, |least, point| least.min(point.error));
-        assert!(least < 5e-14, "{least:e}");
-    }
-}
+use branched_pendulum_studies::scenes::BranchedDouble;
+use branched_pendulum_studies::work_precision::reference::near_threshold;
 
 /// In lanes, an emitted model ends as near to the truth as by the same method
 /// alone. Steps are not the same: their control rounds differently, and the motion
@@ -67,12 +46,4 @@ fn lanes_are_as_accurate_as_the_plain_method_near_the_threshold() {
         assert!(lanes.1 < 4.0 * plain.1, "{plain:?} {lanes:?}");
         assert!(plain.0 < 1e-8, "{plain:?}");
     }
-}
-
-#[test]
-fn the_least_time_that_reaches_the_error() {
-    let point = |error, micros| Point { error, micros };
-    let points = [point(1e-2, 1.0), point(1e-4, 3.0), point(1e-4, 2.0)];
-    assert_eq!(time_for(&points, 1e-3), Some(2.0));
-    assert_eq!(time_for(&points, 1e-5), None);
 }

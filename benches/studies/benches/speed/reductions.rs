@@ -1,4 +1,4 @@
-//! `cargo bench --bench reductions`: savings by smaller models of the same motion.
+//! Savings by smaller models of the same motion.
 //!
 //! - One evaluation of a tree of 2²⁰ − 1 links whose copies move in phase: a chain of twenty.
 //! - Growth G of the antiphase mode of the paper's pendulum within 10 s of a release from each of
@@ -9,17 +9,17 @@
 //!   setting of each way counts: method, tolerance, and in absolute angles the size of the initial
 //!   differences.
 //!
-//! All ways run in lanes on one thread and take turns, and the shortest of their times counts.
+//! All ways run in lanes on one thread.
 
 use std::hint::black_box;
 use std::num::NonZeroUsize;
-use std::time::{Duration, Instant};
 
 use branched_pendulum::integrate::LaneMethod;
 use branched_pendulum::prelude::*;
 use branched_pendulum::system::{LaneOde, TransverseOde};
-use branched_pendulum::{Pendulum, Scalar, Transverse};
+use branched_pendulum::{Pendulum, Transverse};
 use branched_pendulum_studies::scenes::BranchedDouble;
+use branched_pendulum_timing::{Contender, compared, least};
 
 /// A full binary tree of 2²⁰ − 1 rods, with all copies in phase.
 #[branched_pendulum(
@@ -74,39 +74,6 @@ const JUDGEMENTS: [Judgement; 2] = [
 /// Returns the release angles, in degrees.
 fn degrees() -> impl Iterator<Item = f64> {
     (0..ANGLES).map(|i| 5.0 + 0.05 * f64::from(i))
-}
-
-/// The whole pendulum, described in symmetric coordinates.
-struct Symmetric<T>(BranchedDouble<T>);
-
-impl<T: Scalar> Ode<T> for Symmetric<T> {
-    fn dimension(&self) -> usize {
-        6
-    }
-
-    fn rates(&self, time: T, state: &[T], rates: &mut [T]) {
-        Self::rates_of(self, time, state, rates);
-    }
-}
-
-impl<T: Scalar> LaneOde<T> for Symmetric<T> {
-    type Of<S: Scalar> = Symmetric<S>;
-
-    const DIMENSION: Option<usize> = Some(6);
-
-    fn on_scalar<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Symmetric<S> {
-        Symmetric(self.0.cast(convert))
-    }
-
-    #[inline(always)]
-    fn rates_of<S: Scalar>(system: &Symmetric<S>, _: S, state: &[S], rates: &mut [S]) {
-        let (&[a, b, c, da, db, dc], [va, vb, vc, second @ ..]) = (state, rates) else {
-            return;
-        };
-        (*va, *vb, *vc) = (da, db, dc);
-        let accelerations = system.0.symmetric_accelerations(&[a, b, c], &[da, db, dc]);
-        second.copy_from_slice(&accelerations);
-    }
 }
 
 /// A method of computing the growth curve.
@@ -175,7 +142,9 @@ impl Setting {
                 let system = TransverseOde::new(InPhase::new(), 0).expect("one pair of copies");
                 self.by_pairs(&system, &starts)
             }
-            GrowthMethod::Symmetric => self.by_pairs(&Symmetric(BranchedDouble::new()), &starts),
+            GrowthMethod::Symmetric => {
+                self.by_pairs(&SymmetricCoordinates(BranchedDouble::new()), &starts)
+            }
             GrowthMethod::Absolute(_) => {
                 let system = AbsoluteAngles(BranchedDouble::new());
                 match self.order {
@@ -225,12 +194,6 @@ fn error(found: &[f64], exact: &[f64], judgement: &Judgement) -> f64 {
     errors[(errors.len() as f64 * judgement.share) as usize]
 }
 
-/// Returns the shortest of the times of several runs.
-fn least_time(setting: Setting) -> Duration {
-    let times = (0..3).map(|_| time_of(&mut || drop(black_box(setting.curve()))));
-    times.min().unwrap_or(Duration::MAX)
-}
-
 /// Returns the cheapest setting that meets a goal, comparing the first sufficient setting of each
 /// method and integrator. If none meets it, returns the smallest error.
 fn cheapest(
@@ -254,7 +217,7 @@ fn cheapest(
                 let found = error(&setting.curve(), exact, judgement);
                 nearest = nearest.min(found);
                 if found < goal {
-                    let time = least_time(setting);
+                    let time = least(3, || drop(black_box(setting.curve())));
                     if best.is_none_or(|(least, _)| time < least) {
                         best = Some((time, setting));
                     }
@@ -266,12 +229,6 @@ fn cheapest(
     best.map(|(_, setting)| setting).ok_or(nearest)
 }
 
-fn time_of(pass: &mut dyn FnMut()) -> Duration {
-    let clock = Instant::now();
-    pass();
-    clock.elapsed()
-}
-
 /// Returns the time of one evaluation of the chain, in s.
 fn evaluation() -> f64 {
     const STATES: usize = 1000;
@@ -280,20 +237,17 @@ fn evaluation() -> f64 {
         std::array::from_fn(|link| ((7 * i + 13 * link) % 64) as f64 / 32.0 - 1.0)
     };
     let states: Vec<[[f64; 20]; 2]> = (0..STATES).map(|i| [state(i), state(i + 5)]).collect();
-    let mut least = Duration::MAX;
-    for _ in 0..40 {
-        least = least.min(time_of(&mut || {
-            for [theta, omega] in black_box(&states) {
-                let mut alpha = [0.0; 20];
-                model.accelerations_into(0.0, theta, omega, &mut alpha);
-                black_box(&mut alpha);
-            }
-        }));
-    }
-    least.as_secs_f64() / STATES as f64
+    let seconds = least(40, || {
+        for [theta, omega] in black_box(&states) {
+            let mut alpha = [0.0; 20];
+            model.accelerations_into(0.0, theta, omega, &mut alpha);
+            black_box(&mut alpha);
+        }
+    });
+    seconds / STATES as f64
 }
 
-fn main() {
+pub(crate) fn run() {
     println!(
         "accelerations of 20 generations in phase: {:.0} ns",
         1e9 * evaluation()
@@ -329,24 +283,15 @@ fn compare(exact: &[f64], judgement: &Judgement, goal: f64) {
         ),
         ("symmetric coordinates", vec![GrowthMethod::Symmetric]),
     ];
-    let found = ways.map(|(name, ways)| (name, cheapest(&ways, exact, judgement, goal)));
-    let mut times = [Duration::MAX; 3];
-    for _ in 0..ROUNDS {
-        for (time, (_, setting)) in times.iter_mut().zip(&found) {
-            if let Ok(setting) = setting {
-                *time = (*time).min(time_of(&mut || drop(black_box(setting.curve()))));
+    let mut contenders = Vec::new();
+    for (name, ways) in ways {
+        match cheapest(&ways, exact, judgement, goal) {
+            Ok(setting) => {
+                let pass = move || drop(black_box(setting.curve()));
+                contenders.push(Contender::new(format!("{name}, {setting:?}"), 1.0, pass));
             }
+            Err(nearest) => println!("{name}: by no setting; the nearest {nearest:.1e}"),
         }
     }
-    println!("{goal:e}:");
-    for (time, (name, setting)) in times.iter().zip(&found) {
-        match setting {
-            Ok(setting) => println!(
-                "  {name}: {:.1} ms, ratio {:.2} ({setting:?})",
-                1e3 * time.as_secs_f64(),
-                time.as_secs_f64() / times[0].as_secs_f64(),
-            ),
-            Err(nearest) => println!("  {name}: by no setting; the nearest {nearest:.1e}"),
-        }
-    }
+    println!("below {goal:e}\n{}", compared(ROUNDS, contenders));
 }

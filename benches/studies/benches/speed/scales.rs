@@ -1,17 +1,16 @@
-//! `cargo bench --bench scales`: cost of energy budgets by scale, as multiples of the cost of an
-//! evaluation of the accelerations of the same tree.
+//! Cost of energy budgets by scale, as multiples of the cost of an evaluation of the accelerations
+//! of the same tree.
 //!
-//! Binary trees of rods, one state, one thread. Budget and accelerations are timed alternately, and
-//! the shortest time of each counts. The last column is the cost per link and scale: it is constant
-//! if the cost grows as n log n.
+//! Binary trees of rods, one state, one thread. The last column is the cost per link and scale: it
+//! is constant if the cost grows as n log n.
 
 use std::hint::black_box;
 use std::num::NonZeroUsize;
-use std::time::{Duration, Instant};
 
 use branched_pendulum::prelude::*;
 use branched_pendulum::sectors::{ScaleBudget, Scales};
 use branched_pendulum::system::Workspace;
+use branched_pendulum_timing::{Pass, Table, in_turns};
 
 /// Full binary trees of rods.
 macro_rules! trees {
@@ -24,12 +23,12 @@ macro_rules! trees {
         )]
         struct $name;)*
 
-        fn rows() {
-            $({
+        fn rows() -> Vec<[String; 6]> {
+            vec![$({
                 let mut model = $name::<f64>::new();
                 model.set_threads(NonZeroUsize::MIN);
-                row(&model);
-            })*
+                row(&model)
+            }),*]
         }
     };
 }
@@ -47,13 +46,7 @@ trees!(
     Links131071 17
 );
 
-/// A timed function, with the shortest time of its passes.
-struct Case<'a> {
-    pass: Box<dyn FnMut() + 'a>,
-    least: Duration,
-}
-
-fn row<M: Pendulum<f64> + Scales<f64>>(model: &M) {
+fn row<M: Pendulum<f64> + Scales<f64>>(model: &M) -> [String; 6] {
     let links = model.links();
     let angle = |link: usize| ((7 * link + 13) % 64) as f64 / 32.0 - 1.0;
     let theta: Vec<f64> = (0..links).map(angle).collect();
@@ -63,7 +56,7 @@ fn row<M: Pendulum<f64> + Scales<f64>>(model: &M) {
     let mut workspaces = [Workspace::new(), Workspace::new(), Workspace::new()];
     let [first, second, third] = &mut workspaces;
     let (mut budget, mut energies) = (ScaleBudget::new(), ScaleBudget::new());
-    let passes: [Box<dyn FnMut()>; 3] = [
+    let mut passes: [Pass<'_>; 3] = [
         Box::new(|| {
             model.accelerations_with(first, 0.0, black_box(theta), omega, &mut alpha);
             black_box(&mut alpha);
@@ -77,31 +70,27 @@ fn row<M: Pendulum<f64> + Scales<f64>>(model: &M) {
             black_box(&mut energies);
         }),
     ];
-    let mut cases = passes.map(|pass| Case {
-        pass,
-        least: Duration::MAX,
-    });
-    let rounds = (4_000_000 / links).clamp(15, 2_000);
-    for _ in 0..rounds {
-        for Case { pass, least } in &mut cases {
-            let start = Instant::now();
-            pass();
-            *least = start.elapsed().min(*least);
-        }
-    }
-    let [evaluation, all, energies] = cases.map(|case| case.least.as_secs_f64());
+    let times = in_turns((4_000_000 / links).clamp(15, 2_000), &mut passes);
+    let [evaluation, all, energies] = [0, 1, 2].map(|pass: usize| times[pass].least());
     let scales = M::COPIES.len() as f64;
-    println!(
-        "| {links} | {scales} | {:.2} | {:.1} | {:.1} | {:.2} |",
-        1e6 * evaluation,
-        energies / evaluation,
-        all / evaluation,
-        1e9 * all / (links as f64 * scales),
-    );
+    [
+        links.to_string(),
+        scales.to_string(),
+        format!("{:.2}", 1e6 * evaluation),
+        format!("{:.1}", energies / evaluation),
+        format!("{:.1}", all / evaluation),
+        format!("{:.2}", 1e9 * all / (links as f64 * scales)),
+    ]
 }
 
-fn main() {
-    println!("| links | scales | accelerations (µs) | energies | budget | ns a link and scale |");
-    println!("|---:|---:|---:|---:|---:|---:|");
-    rows();
+pub(crate) fn run() {
+    let table = Table::new([
+        "links",
+        "scales",
+        "accelerations (µs)",
+        "energies",
+        "budget",
+        "ns a link and scale",
+    ]);
+    println!("{}", rows().into_iter().fold(table, Table::row));
 }

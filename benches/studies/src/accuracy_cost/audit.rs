@@ -48,11 +48,11 @@ pub fn run(job: &Job) -> Result<(), Failure> {
         progress.begin(&title);
         let question = Question {
             scene,
-            outputs: vec![(output, tolerance)],
+            output,
+            tolerance,
             horizon,
             rate,
             starts,
-            limit: None,
         };
         let line = progress.ticking(|| {
             requests::with(&question, |advisor, candidates| {

@@ -7,13 +7,16 @@ use branched_pendulum_advice::{Advice, CandidateName, Measured, pareto};
 use branched_pendulum_charts::{Axis, Chart, Color, Dash, Panel, Series, Symbol};
 use branched_pendulum_data::{Cell, Column};
 
-use super::arguments::Arguments;
 use super::requests::{self, OutputName, Question, SceneName};
 use branched_pendulum_frame::Failure;
 use branched_pendulum_frame::Job;
 
 /// Largest errors of the angles (rad) for which the advisor is asked.
 const TOLERANCES: [f64; 4] = [1e-2, 1e-4, 1e-6, 1e-8];
+
+/// Duration of the motions in s, and samples a second.
+const HORIZON: f64 = 3.0;
+const RATE: f64 = 10.0;
 
 /// Distance between two tolerances of a method, in decades.
 const SPACING: f64 = 0.5;
@@ -30,27 +33,28 @@ struct Surveyed {
 ///
 /// # Errors
 /// [`Failure`].
-pub fn draw(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
+pub fn draw(job: &Job) -> Result<(), Failure> {
     let progress = job.progress(SceneName::ALL.len());
     let mut all = Vec::new();
     for scene in SceneName::ALL {
         progress.begin(scene.title());
-        let surveyed = progress.ticking(|| survey(scene, arguments))?;
+        let surveyed = progress.ticking(|| survey(scene))?;
         job.print(&table(&surveyed))?;
         all.push(surveyed);
         progress.next();
     }
     write(job, &all)?;
-    job.chart("accuracy-cost", &chart(&all, arguments.horizon))
+    job.chart("accuracy-cost", &chart(&all))
 }
 
-fn survey(scene: SceneName, arguments: &Arguments) -> Result<Surveyed, Failure> {
+fn survey(scene: SceneName) -> Result<Surveyed, Failure> {
     let question = |tolerance| Question {
         scene,
-        outputs: vec![(OutputName::Angles, tolerance)],
-        limit: None,
+        output: OutputName::Angles,
+        tolerance,
+        horizon: HORIZON,
+        rate: RATE,
         starts: 1,
-        ..arguments.question()
     };
     let advice: Result<Vec<Advice>, Failure> = TOLERANCES
         .into_iter()
@@ -146,8 +150,8 @@ const COLOURS: [Color; 6] = [
     Color::rgb(86, 180, 233),
 ];
 
-fn chart(all: &[Surveyed], horizon: f64) -> Chart {
-    let title = format!("Largest error of an angle in {horizon} s against the time that it takes");
+fn chart(all: &[Surveyed]) -> Chart {
+    let title = format!("Largest error of an angle in {HORIZON} s against the time that it takes");
     let names = || all.iter().flat_map(|surveyed| &surveyed.names);
     let mut models: Vec<&str> = names().map(|name| name.model.as_str()).collect();
     models.sort_unstable();

@@ -2,8 +2,7 @@
 
 use branched_pendulum::approximate::{Approximation, Linear};
 use branched_pendulum::prelude::*;
-use branched_pendulum_advice::{AdviceError, Advisor, Candidates, ModelForm, TimeLimit, Wanted};
-use clap::ValueEnum;
+use branched_pendulum_advice::{AdviceError, Advisor, Candidates, ModelForm, Wanted};
 
 use super::scenes::{
     Branch, BranchInPhase, BranchLoops, Cascade, CascadeInPhase, CascadeWrittenOut, PaperInPhase,
@@ -12,13 +11,13 @@ use crate::scenes::BranchedDouble;
 use branched_pendulum_frame::Failure;
 
 /// Name of a scene.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SceneName {
-    /// the paper's pendulum, released near its threshold
+    /// The paper's pendulum, released near its threshold.
     Paper,
-    /// a cascade of 63 rods
+    /// A cascade of 63 rods.
     Cascade,
-    /// a branch of 31 springy rods with friction
+    /// A branch of 31 springy rods with friction.
     Branch,
 }
 
@@ -50,10 +49,7 @@ pub enum OutputName {
 }
 
 impl OutputName {
-    /// All outputs.
-    pub const ALL: [Self; 4] = [Self::Angles, Self::Energy, Self::Pixels, Self::Transfer];
-
-    /// Returns the name of the output on the command line.
+    /// Returns the name of the output.
     pub fn word(self) -> &'static str {
         match self {
             Self::Angles => "angles",
@@ -65,20 +61,20 @@ impl OutputName {
 }
 
 /// A question to the advisor.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Question {
     /// The scene.
     pub scene: SceneName,
-    /// The outputs that must be right, with their largest errors.
-    pub outputs: Vec<(OutputName, f64)>,
+    /// The output that must be right.
+    pub output: OutputName,
+    /// Largest error of the output, in its unit.
+    pub tolerance: f64,
     /// End time, in s.
     pub horizon: f64,
     /// Number of samples a second.
     pub rate: f64,
     /// Number of releases.
     pub starts: u32,
-    /// Limit on the computing time of the chosen candidate.
-    pub limit: Option<TimeLimit>,
 }
 
 /// Pixels per metre.
@@ -122,17 +118,12 @@ fn requests<'a, M: Energy<f64> + Positions<f64>>(
         let deviation = 0.01 * f64::from(index) / f64::from(question.starts.max(2) - 1);
         advisor = advisor.start(State::at_rest(0.0, &release(deviation)));
     }
-    for &(output, tolerance) in &question.outputs {
-        advisor = match output {
-            OutputName::Angles => advisor.wanted(Wanted::angles(tolerance)),
-            OutputName::Energy => advisor.wanted(Wanted::energy(model, tolerance)),
-            OutputName::Pixels => advisor.wanted(Wanted::pixels(model, PIXELS, tolerance)),
-            OutputName::Transfer => advisor,
-        };
-    }
-    match question.limit {
-        Some(limit) => advisor.within(limit),
-        None => advisor,
+    let tolerance = question.tolerance;
+    match question.output {
+        OutputName::Angles => advisor.wanted(Wanted::angles(tolerance)),
+        OutputName::Energy => advisor.wanted(Wanted::energy(model, tolerance)),
+        OutputName::Pixels => advisor.wanted(Wanted::pixels(model, PIXELS, tolerance)),
+        OutputName::Transfer => advisor,
     }
 }
 
@@ -145,15 +136,14 @@ fn paper<R>(
     let release = |more: f64| vec![47.8_f64.to_radians() + more, 1e-3, -1e-3];
     let mut advisor = requests(Advisor::new(&ode), question, &model, release)
         .conserved(Wanted::energy(&model, DRIFT));
-    for &(output, tolerance) in &question.outputs {
-        if output == OutputName::Transfer {
-            advisor = advisor.wanted(Wanted::new("transfer", "W", tolerance, |_, state, out| {
-                let (q, v) = state.split_at(state.len() / 2);
-                let (q, v) = (three(q), three(v));
-                let (q, v) = (model.to_symmetric(&q), model.to_symmetric(&v));
-                out.push(model.transfer_exact_from_rates(&q, &v).total());
-            }));
-        }
+    if question.output == OutputName::Transfer {
+        let transfer = |_: f64, state: &[f64], out: &mut Vec<f64>| {
+            let (q, v) = state.split_at(state.len() / 2);
+            let (q, v) = (three(q), three(v));
+            let (q, v) = (model.to_symmetric(&q), model.to_symmetric(&v));
+            out.push(model.transfer_exact_from_rates(&q, &v).total());
+        };
+        advisor = advisor.wanted(Wanted::new("transfer", "W", question.tolerance, transfer));
     }
     let symmetric = ModelForm::new("symmetric")
         .entry("emit(symmetric)")

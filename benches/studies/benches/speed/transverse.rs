@@ -1,5 +1,5 @@
-//! `cargo bench -p branched-pendulum-trees --bench transverse`: growth rates of small differences
-//! between closed copies of a lineage of eight generations, in the full tree of 255 links.
+//! Growth rates of small differences between closed copies of a lineage of eight generations, in
+//! the full tree of 255 links.
 //!
 //! Each branching below a closed link forms its own sector: to first order its difference moves
 //! independently of all others. The lineage moves under a motor without gravity, and next to it the
@@ -173,7 +173,7 @@ fn follow(seed: u32, [full, lineage]: [&PendulumTree; 2]) -> [Vec<f64>; 2] {
     [rates, energies]
 }
 
-fn main() {
+pub(crate) fn run() {
     let [full, lineage] = ["", "open = 1,"].map(tree);
     let starts: Vec<[Vec<f64>; 2]> = (1..=STARTS)
         .map(|seed| follow(seed, [&full, &lineage]))

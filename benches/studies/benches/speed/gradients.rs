@@ -1,4 +1,4 @@
-//! `cargo bench --bench gradients`: cost of derivatives in reverse mode.
+//! Cost of derivatives in reverse mode.
 //!
 //! - One pullback of the accelerations (derivatives by 3 angles, 3 velocities and 11 parameters)
 //!   in evaluations of the accelerations.
@@ -8,15 +8,15 @@
 //!
 //! The first two also for the tree that a program reads (without tangents).
 //!
-//! All candidates take turns; the medians of the ratios of each turn are printed.
+//! The medians of the ratios of each turn are printed.
 
 use std::hint::black_box;
-use std::time::Instant;
 
 use branched_pendulum::Parametric;
 use branched_pendulum::prelude::*;
 use branched_pendulum::scalar::Dual;
 use branched_pendulum::system::{PullbackOde, PullbackWorkspace, Workspace};
+use branched_pendulum_timing::{Pass, Table, in_turns};
 use branched_pendulum_trees::{PendulumTree, TreeDescription};
 
 /// The paper's pendulum, with a name for each constant.
@@ -86,89 +86,90 @@ impl Ode<f64> for Tangents {
     }
 }
 
-/// Returns the seconds that a piece of work takes.
-fn seconds<R>(mut work: impl FnMut() -> R) -> f64 {
-    let start = Instant::now();
-    black_box(work());
-    start.elapsed().as_secs_f64()
+/// Tolerances of the motions.
+const TOLERANCES: [f64; 3] = [1e-6, 1e-9, 1e-12];
+
+/// Prints the cost of a pullback in evaluations.
+fn print_pullback(name: &str, mut evaluate: impl FnMut(), mut pull_back: impl FnMut()) {
+    let mut passes: [Pass<'_>; 2] = [
+        Box::new(|| (0..EVALUATIONS).for_each(|_| evaluate())),
+        Box::new(|| (0..EVALUATIONS).for_each(|_| pull_back())),
+    ];
+    let times = in_turns(ROUNDS, &mut passes);
+    let ratio = times[1].ratio_to(&times[0]);
+    println!("{name}: one pullback {ratio:.2} evaluations");
 }
 
-fn median(mut values: Vec<f64>) -> f64 {
-    values.sort_by(f64::total_cmp);
-    values[values.len() / 2]
+/// Returns a pass that integrates over 10 s.
+fn motion<'a>(method: &'a Dop853<f64>, ode: &'a impl Ode<f64>, start: &'a State<f64>) -> Pass<'a> {
+    Box::new(move || {
+        let _ = black_box(method.run(ode, start, 10.0));
+    })
 }
 
-fn main() {
+/// Returns a row for one tolerance: the number of steps, and the time of the derivatives of an
+/// angle after 10 s over the times of other passes.
+fn gradient<const N: usize>(
+    tolerance: f64,
+    method: &Dop853<f64>,
+    ode: &impl PullbackOde<f64>,
+    start: &State<f64>,
+    others: [Pass<'_>; N],
+) -> Vec<String> {
+    let end = |_: usize, state: &[f64], slopes: &mut [f64]| {
+        slopes[1] = 1.0;
+        state[1]
+    };
+    let gradient = || method.gradient(ode, PARAMETERS, start, &[10.0], end);
+    let steps = gradient().map_or(0, |found| found.steps);
+    let mut passes: Vec<Pass<'_>> = others.into();
+    passes.push(Box::new(|| drop(black_box(gradient()))));
+    let times = in_turns(ROUNDS, &mut passes);
+    let ratios = times[..N].iter().map(|other| times[N].ratio_to(other));
+    let ratios = ratios.map(|ratio| format!("{ratio:.2}"));
+    [format!("{tolerance:e}"), steps.to_string()]
+        .into_iter()
+        .chain(ratios)
+        .collect()
+}
+
+pub(crate) fn run() {
     let paper = Paper::<f64>::with_parameters(value);
     let dual = Paper::<f64>::with_parameters(|index| Dual::variable(value(index), STATE + index));
     let tangents = Tangents(dual);
     let ode = AbsoluteAngles(&paper);
     let (theta, omega, weights) = ([0.4, -0.3, 0.5], [0.2, 1.0, -0.7], [1.0, -0.5, 0.25]);
+    print_pullback(
+        "written out",
+        || {
+            black_box(paper.accelerations(&black_box(theta), &omega));
+        },
+        || {
+            black_box(paper.accelerations_pullback(&black_box(theta), &omega, &weights));
+        },
+    );
     let start = State::new(0.0, [theta, omega].concat());
     let mut with_tangents = start.clone();
     for index in 0..STATE {
         let unit = (0..DIRECTIONS).map(|k| f64::from(u8::from(k == index)));
         with_tangents.values.extend(unit);
     }
-    let mut pullback = Vec::new();
-    for _ in 0..ROUNDS {
-        let one = seconds(|| {
-            for _ in 0..EVALUATIONS {
-                let theta = black_box(theta);
-                black_box(paper.accelerations(&theta, &omega));
-            }
-        });
-        let all = seconds(|| {
-            for _ in 0..EVALUATIONS {
-                let theta = black_box(theta);
-                black_box(paper.accelerations_pullback(&theta, &omega, &weights));
-            }
-        });
-        pullback.push(all / one);
-    }
-    println!(
-        "written out: one pullback {:.2} evaluations",
-        median(pullback)
-    );
-
-    let cases = [1e-6, 1e-9, 1e-12];
-    println!("| tolerance | steps | gradient, in runs | in runs with {DIRECTIONS} tangents |");
-    println!("|---|---:|---:|---:|");
-    for tolerance in cases {
+    let in_tangents = format!("in runs with {DIRECTIONS} tangents");
+    let table = Table::new(["tolerance", "steps", "gradient, in runs", &in_tangents]);
+    let rows = TOLERANCES.map(|tolerance| {
         let method = Dop853::new(Options::with_tolerance(tolerance));
-        let (mut by_run, mut by_tangents, mut steps) = (Vec::new(), Vec::new(), 0);
-        for _ in 0..ROUNDS {
-            let run = seconds(|| method.run(&ode, &start, 10.0));
-            let gradient = seconds(|| steps = steps_of_gradient(&method, &ode, &start));
-            let forward = seconds(|| method.run(&tangents, &with_tangents, 10.0));
-            by_run.push(gradient / run);
-            by_tangents.push(gradient / forward);
-        }
-        println!(
-            "| {tolerance:e} | {steps} | {:.2} | {:.2} |",
-            median(by_run),
-            median(by_tangents)
-        );
-    }
-    at_run_time(&start, cases);
-}
-
-/// Computes the derivatives of an angle after 10 s; returns the number of steps.
-fn steps_of_gradient(
-    method: &Dop853<f64>,
-    ode: &impl PullbackOde<f64>,
-    start: &State<f64>,
-) -> usize {
-    let end = |_: usize, state: &[f64], slopes: &mut [f64]| {
-        slopes[1] = 1.0;
-        state[1]
-    };
-    let found = method.gradient(ode, PARAMETERS, start, &[10.0], end);
-    found.map_or(0, |found| found.steps)
+        let others = [
+            motion(&method, &ode, &start),
+            motion(&method, &tangents, &with_tangents),
+        ];
+        gradient(tolerance, &method, &ode, &start, others)
+    });
+    println!("{}", rows.into_iter().fold(table, Table::row));
+    at_run_time(&start);
 }
 
 /// Prints the same for the tree that a program reads.
-fn at_run_time(start: &State<f64>, tolerances: [f64; 3]) {
+fn at_run_time(start: &State<f64>) {
     const TEXT: &str = "gravity = g,
         parent(mass = m_p, com = c_p, inertia = i_p, joint = j, friction = f_p) [
             child(mass = m_c, com = c_c, inertia = i_c, friction = f_c, spring = s) * 2
@@ -179,37 +180,19 @@ fn at_run_time(start: &State<f64>, tolerances: [f64; 3]) {
     let (mut workspace, mut back) = (Workspace::new(), PullbackWorkspace::new());
     let (mut rates, weights) = ([0.0; STATE], [0.0, 0.0, 0.0, 1.0, -0.5, 0.25]);
     let (mut by_state, mut by_parameters) = ([0.0; STATE], [0.0; PARAMETERS]);
-    let mut ratios = Vec::new();
-    for _ in 0..ROUNDS {
-        let one = seconds(|| {
-            for _ in 0..EVALUATIONS {
-                let state = black_box(&start.values);
-                plain.rates_with(&mut workspace, 0.0, state, &mut rates);
-            }
-        });
-        let all = seconds(|| {
-            for _ in 0..EVALUATIONS {
-                let state = black_box(&start.values);
-                let by = (&mut by_state, &mut by_parameters);
-                pullback.add_pullback(&mut back, 0.0, state, &weights, by.0, by.1);
-            }
-        });
-        ratios.push(all / one);
-    }
-    println!(
-        "at run time: one pullback {:.2} evaluations",
-        median(ratios)
+    print_pullback(
+        "at run time",
+        || plain.rates_with(&mut workspace, 0.0, black_box(&start.values), &mut rates),
+        || {
+            let (state, by) = (black_box(&start.values), &mut by_state);
+            pullback.add_pullback(&mut back, 0.0, state, &weights, by, &mut by_parameters);
+        },
     );
-    println!("| tolerance | steps | gradient, in runs |");
-    println!("|---|---:|---:|");
-    for tolerance in tolerances {
+    let table = Table::new(["tolerance", "steps", "gradient, in runs"]);
+    let rows = TOLERANCES.map(|tolerance| {
         let method = Dop853::new(Options::with_tolerance(tolerance));
-        let (mut by_run, mut steps) = (Vec::new(), 0);
-        for _ in 0..ROUNDS {
-            let run = seconds(|| method.run(&plain, start, 10.0));
-            let gradient = seconds(|| steps = steps_of_gradient(&method, &pullback, start));
-            by_run.push(gradient / run);
-        }
-        println!("| {tolerance:e} | {steps} | {:.2} |", median(by_run));
-    }
+        let others = [motion(&method, &plain, start)];
+        gradient(tolerance, &method, &pullback, start, others)
+    });
+    println!("{}", rows.into_iter().fold(table, Table::row));
 }
