@@ -125,7 +125,7 @@ pub fn papers() -> Vec<Problem> {
 pub const RODS: [f64; 7] = [0.08, 0.005, 0.002, -0.001, -0.005, 0.0015, -0.003];
 
 /// Tolerance of the rods' reference.
-const TOLERANCE: f64 = 1e-24;
+pub const TOLERANCE: f64 = 1e-24;
 
 fn rods<P: TaylorPendulum<Double>>(
     name: &'static str,
