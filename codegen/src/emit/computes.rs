@@ -2,9 +2,20 @@
 
 use super::Emission;
 use super::tokens::ident;
-use crate::functions::{Naming, Purpose, SliceFunction};
+use crate::functions::{Naming, Purpose, ResultShape, SliceFunction};
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::quote;
+use std::collections::BTreeSet;
+
+/// Parts of an implementation of `Computes` that differ between functions.
+pub(super) struct SliceBody {
+    /// The number of coordinates, if it is not that of the links.
+    pub(super) coordinates: Option<TokenStream>,
+    /// The computation in the arithmetic of `T`.
+    pub(super) plain: TokenStream,
+    /// The computation with a `workspace`, if it is another one.
+    pub(super) with_workspace: Option<TokenStream>,
+}
 
 impl Emission<'_> {
     /// Emits `impl Computes` of each function on slices for which the program has an entry: its
@@ -40,20 +51,50 @@ impl Emission<'_> {
                     }
                 }
             };
-            self.computes(purposes[0], function, &body, None)
+            let body = SliceBody {
+                coordinates: self.coordinates(&purposes),
+                plain: body,
+                with_workspace: None,
+            };
+            self.computes(purposes[0], function, &body)
         });
         functions.collect()
     }
 
-    /// Emits `impl Computes`, with the body in the arithmetic of `T`, and, if it differs, the body
-    /// with a `workspace`. `purpose` is one of those that the function implements.
+    /// Emits the number of coordinates whose accelerations functions return, if it is not the number
+    /// of links: these functions return the accelerations of differences too. There is no number if
+    /// the functions return different ones.
+    fn coordinates(&self, purposes: &[Purpose]) -> Option<TokenStream> {
+        let entries = purposes.iter().filter_map(|&purpose| self.entry(purpose));
+        let counts: BTreeSet<usize> = entries
+            .filter(|entry| matches!(entry.shape, ResultShape::Vector))
+            .map(|entry| entry.outputs.len())
+            .collect();
+        let own = self.scene.links.len();
+        let count = match counts.into_iter().collect::<Vec<_>>()[..] {
+            [] => return None,
+            [only] if only == own => return None,
+            [only] => {
+                let only = Literal::usize_unsuffixed(only);
+                quote!(::core::option::Option::Some(#only))
+            }
+            [_, _, ..] => quote!(::core::option::Option::None),
+        };
+        Some(quote!(const COORDINATES: ::core::option::Option<usize> = #count;))
+    }
+
+    /// Emits `impl Computes`. `purpose` is one of those that the function implements.
     pub(super) fn computes(
         &self,
         purpose: Purpose,
         function: SliceFunction,
-        body: &TokenStream,
-        with_workspace: Option<&TokenStream>,
+        body: &SliceBody,
     ) -> TokenStream {
+        let SliceBody {
+            coordinates,
+            plain,
+            with_workspace,
+        } = body;
         let (name, runtime) = (&self.item.ident, self.runtime());
         let other = super::other_scalar(name);
         let (at, names) = self.names_of_arguments(purpose, function);
@@ -63,7 +104,7 @@ impl Emission<'_> {
             results: &mut [&mut [T]],
         };
         let whole = |body: &TokenStream| quote! { #names #body };
-        let with_workspace = with_workspace.map(|body| {
+        let with_workspace = with_workspace.as_ref().map(|body| {
             let body = whole(body);
             quote! {
                 fn compute_with(
@@ -75,13 +116,15 @@ impl Emission<'_> {
                 }
             }
         });
-        let body = whole(body);
+        let body = whole(plain);
         let function = ident(function.name);
         quote! {
             impl<T: #runtime::Scalar> #runtime::system::Computes<
                 #runtime::system::functions::#function, T,
             > for #name<T> {
                 type On<#other: #runtime::Scalar> = #name<#other>;
+
+                #coordinates
 
                 #[inline(always)]
                 fn on<#other: #runtime::Scalar>(

@@ -2,6 +2,7 @@
 //! sweep computes.
 
 use super::Emission;
+use super::computes::SliceBody;
 use super::doc_text::doc_lines;
 use super::tokens::ident;
 use crate::functions::Purpose;
@@ -34,8 +35,13 @@ impl Emission<'_> {
         let pullbacks = pullbacks.map(|own| (own.purpose(), self.sweep_pullback(own)));
         let functions = forced.into_iter().chain(prescribed).chain(inverse);
         let functions = functions.chain(pullbacks);
-        let functions = functions.filter_map(|(purpose, [body, with_workspace])| {
-            Some(self.computes(purpose, purpose.slices()?, &body, Some(&with_workspace)))
+        let functions = functions.filter_map(|(purpose, [plain, with_workspace])| {
+            let body = SliceBody {
+                coordinates: None,
+                plain,
+                with_workspace: Some(with_workspace),
+            };
+            Some(self.computes(purpose, purpose.slices()?, &body))
         });
         functions.collect()
     }

@@ -5,7 +5,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError, TryLockError};
 use branched_pendulum::integrate::{
     AnyIntegrator, IntegrationError as Failure, Integrator, Method, Stepper,
 };
-use branched_pendulum::system::{Model, RatesOnly, State, Torques, UnderTorques};
+use branched_pendulum::system::{Action, Model, RatesOnly, State, UnderTorques};
 use branched_pendulum_trees::PendulumTree;
 use numpy::{IntoPyArray, PyArray1};
 use pyo3::exceptions::{PyRuntimeError, PyValueError};
@@ -78,8 +78,8 @@ impl Acting {
     }
 }
 
-impl Torques<f64> for Acting {
-    fn torques_into(&self, time: f64, theta: &[f64], omega: &[f64], torques: &mut [f64]) {
+impl Action<f64> for Acting {
+    fn act(&self, time: f64, theta: &[f64], omega: &[f64], torques: &mut [f64]) {
         let values = match &*self.source {
             Source::Constant(values) => {
                 torques.copy_from_slice(values);

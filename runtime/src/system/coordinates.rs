@@ -2,10 +2,9 @@
 
 use super::function::{At, Computes, functions};
 use super::model::twice;
-use super::motion::{Free, Motion, MotionFunction};
 use super::ode::halves;
 use super::pendulum::put;
-use super::{CastOde, LaneOde, Model, Ode, Pendulum, Workspace};
+use super::{CastOde, Free, LaneOde, Model, Motion, Ode, Pendulum, Workspace};
 use crate::scalar::{Scalar, at};
 
 /// A pendulum as a first-order system in absolute angles: the state is the angles followed by the
@@ -80,10 +79,6 @@ pub type SymmetricCoordinates<P> = Motion<P, functions::SymmetricAccelerations, 
 #[allow(non_snake_case)]
 pub const fn SymmetricCoordinates<P>(pendulum: P) -> SymmetricCoordinates<P> {
     Motion::new_of(pendulum, 0, 0, Free)
-}
-
-impl<P: Computes<Self, T>, T: Scalar> MotionFunction<P, T> for functions::SymmetricAccelerations {
-    const COORDINATES: Option<usize> = P::KNOWN_LINKS;
 }
 
 impl<T: Scalar, S: Scalar, P: Pendulum<T>> CastOde<T, S> for AbsoluteAngles<P> {

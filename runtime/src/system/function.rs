@@ -31,17 +31,37 @@ impl<T> At<T> {
     }
 }
 
-/// Numbers of argument slices and result slices of a function.
+/// Numbers of argument slices and result slices of a function, and the motion that it describes.
 pub trait SliceCounts {
     /// Number of argument slices.
     const ARGUMENTS: usize;
 
     /// Number of result slices.
     const RESULTS: usize;
+
+    /// How the rates of a [`Motion`](super::Motion) follow from the function; `None` if the function
+    /// describes no motion.
+    const MOTION: Option<MotionKind>;
+}
+
+/// How the rates of a motion follow from a function. The state is coordinates, followed by their
+/// velocities or momenta.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum MotionKind {
+    /// The function returns accelerations, given coordinates and velocities.
+    Free,
+    /// The function returns accelerations, given coordinates, velocities and external torques.
+    UnderTorques,
+    /// The function returns accelerations and reactions, given angles, angular velocities, external
+    /// torques and the accelerations of prescribed links.
+    Prescribed,
 }
 
 macro_rules! function {
-    ($(#[$docs:meta])* $name:ident: $given:literal -> $results:literal) => {
+    (
+        $(#[$docs:meta])* $name:ident: $given:literal -> $results:literal
+        $(, $motion:ident)?
+    ) => {
         $(#[$docs])*
         #[derive(Clone, Copy, Debug, PartialEq)]
         pub struct $name;
@@ -49,7 +69,17 @@ macro_rules! function {
         impl super::SliceCounts for $name {
             const ARGUMENTS: usize = $given;
             const RESULTS: usize = $results;
+            const MOTION: Option<super::MotionKind> = motion_kind!($($motion)?);
         }
+    };
+}
+
+macro_rules! motion_kind {
+    () => {
+        None
+    };
+    ($motion:ident) => {
+        Some(super::MotionKind::$motion)
     };
 }
 
@@ -58,7 +88,7 @@ pub mod functions {
     function! {
         /// Angular accelerations (rad/s²) from angles (rad), angular velocities (rad/s) and
         /// external torques (N m) on all links.
-        AccelerationsUnderTorques: 3 -> 1
+        AccelerationsUnderTorques: 3 -> 1, UnderTorques
     }
 
     function! {
@@ -85,31 +115,31 @@ pub mod functions {
         /// Angular accelerations (rad/s²) of all links and reactions (N m) on a set of prescribed
         /// links, from angles, angular velocities and torques of all links and the angular
         /// accelerations of the set.
-        AccelerationsOfHeldLinks: 4 -> 2
+        AccelerationsOfHeldLinks: 4 -> 2, Prescribed
     }
 
     function! {
         /// Accelerations of the in-phase motion, then those of the differences of a sector, from
         /// angles, angular velocities, differences and their rates. Linear in the differences.
-        LinearDifferences: 4 -> 1
+        LinearDifferences: 4 -> 1, Free
     }
 
     function! {
         /// Accelerations of the in-phase angles, then those of small differences that act back on
         /// them, from angles, angular velocities, differences and their rates.
-        SmallDifferences: 4 -> 1
+        SmallDifferences: 4 -> 1, Free
     }
 
     function! {
         /// As `SmallDifferences`, with torques as further arguments: on the in-phase angles, and on the
         /// differences.
-        SmallDifferencesUnderTorques: 6 -> 1
+        SmallDifferencesUnderTorques: 6 -> 1, UnderTorques
     }
 
     function! {
         /// Second derivatives (rad/s²) of symmetric coordinates (rad), from the coordinates and
         /// their rates.
-        SymmetricAccelerations: 2 -> 1
+        SymmetricAccelerations: 2 -> 1, Free
     }
 }
 
@@ -124,6 +154,10 @@ pub mod functions {
 pub trait Computes<F: SliceCounts, T: Scalar>: Model<T> {
     /// The type of the model with constants of the scalar type `S`, which has the function too.
     type On<S: Scalar>: Computes<F, S>;
+
+    /// Number of coordinates of the motion that the function describes, if the type determines it:
+    /// links, and differences between copies.
+    const COORDINATES: Option<usize> = Self::KNOWN_LINKS;
 
     /// Returns the model with each constant converted by `convert`, as in [`Model::cast`].
     fn on<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Self::On<S>;
@@ -153,6 +187,8 @@ pub trait Computes<F: SliceCounts, T: Scalar>: Model<T> {
 
 impl<F: SliceCounts, T: Scalar, M: Computes<F, T>> Computes<F, T> for &M {
     type On<S: Scalar> = M::On<S>;
+
+    const COORDINATES: Option<usize> = M::COORDINATES;
 
     #[inline(always)]
     fn on<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Self::On<S> {

@@ -6,6 +6,7 @@
 //! use these traits: they integrate an [`Ode`], a first-order system. [`AbsoluteAngles`] and
 //! [`SymmetricCoordinates`](type@SymmetricCoordinates) convert a pendulum to such a system.
 
+mod action;
 mod by_reference;
 mod canonical;
 mod cast_ode;
@@ -35,6 +36,7 @@ mod transverse;
 mod whole_tree;
 mod workspace;
 
+pub use action::{Action, CastAction, Free};
 pub use canonical::{Canonical, CanonicalVariables};
 pub use cast_ode::CastOde;
 pub use coordinates::{AbsoluteAngles, SymmetricCoordinates, SymmetricPendulum};
@@ -42,14 +44,14 @@ pub use coordinates::{AbsoluteAngles, SymmetricCoordinates, SymmetricPendulum};
 pub use derivatives::{Slopes, gradient};
 pub use energy::Energy;
 pub use first_integral::{CanonicalEnergy, FirstIntegral, TotalEnergy};
-pub use forced::{ByTorques, Forced, LaneTorques, Torques, UnderTorques};
-pub use function::{At, Computes, SliceCounts, functions};
+pub use forced::{Forced, UnderTorques};
+pub use function::{At, Computes, MotionKind, SliceCounts, functions};
 pub use integral::WithIntegral;
 pub use lane_ode::LaneOde;
 pub use link_name::LinkName;
 pub use model::Model;
 pub(crate) use model::known;
-pub use motion::{Action, CastAction, Free, Motion, MotionFunction, Opaque};
+pub use motion::Motion;
 pub use ode::{Ode, OdeFn};
 pub use parametric::Parametric;
 pub use patterns::{DifferencePatterns, PatternError};
@@ -57,9 +59,7 @@ pub use patterns::{DifferencePatterns, PatternError};
 pub use pendulum::InRegisters;
 pub use pendulum::Pendulum;
 pub use positions::{LinkPoint, LinkProperties, Positions};
-pub use prescribed::{
-    Courses, LaneCourses, LinkCourse, LinkCourses, Prescribed, PrescribedMotion, PrescribedOde,
-};
+pub use prescribed::{CourseFn, Courses, LinkCourse, Prescribed, PrescribedMotion, PrescribedOde};
 pub use pullback::{PullbackOde, PullbackWorkspace};
 pub use small::{ForcedDifferences, SmallDifferences, SmallOde, SmallUnderTorques};
 pub use state::{LengthMismatch, State};

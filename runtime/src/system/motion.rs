@@ -3,71 +3,45 @@
 use core::fmt;
 use core::marker::PhantomData;
 
-use super::function::{At, Computes, SliceCounts, compute_in};
+use super::function::{At, Computes, MotionKind, SliceCounts, compute_in};
 use super::model::twice;
 use super::ode::halves;
-use super::{CastOde, LaneOde, Model, Ode, Workspace};
+use super::{Action, CastAction, CastOde, LaneOde, Model, Ode, Workspace, prescribed};
 use crate::scalar::Scalar;
 
-/// Motion of a model `M` as a first-order system. `F` is the function that computes the
-/// accelerations, `A` the external action. The state is the coordinates followed by their
-/// velocities. [`UnderTorques`](super::UnderTorques), [`PrescribedOde`](super::PrescribedOde),
+/// Motion of a model `M` as a first-order system. `F` is the function that computes the rates, `A`
+/// the external [`Action`]. The state is the coordinates followed by their velocities.
+/// [`UnderTorques`](super::UnderTorques), [`PrescribedOde`](super::PrescribedOde),
 /// [`TransverseOde`](super::TransverseOde), [`SmallOde`](type@super::SmallOde),
 /// [`SmallUnderTorques`](super::SmallUnderTorques) and
 /// [`SymmetricCoordinates`](type@super::SymmetricCoordinates) are motions of this type.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, PartialEq)]
 pub struct Motion<M, F, A> {
     pub(super) model: M,
     function: PhantomData<F>,
     /// Index of the sector, or of the set of prescribed links, to which the function applies.
     pub(super) index: usize,
-    /// Number of difference coordinates, which follow the angles of the model's links.
-    pub(super) differences: usize,
+    differences: usize,
     pub(super) action: A,
 }
 
-/// Number of coordinates of a motion that a function computes, if the type of the model determines
-/// it.
-pub trait MotionFunction<M, T>: SliceCounts {
-    /// Number of coordinates.
-    const COORDINATES: Option<usize>;
-}
-
-/// External action on a motion: nothing, torques, or a prescribed motion of some links.
-pub trait Action<T: Scalar>: Sized {
-    /// Writes the velocities and the accelerations of a motion. With a workspace, they are computed
-    /// in fused arithmetic (one rounding per multiply–add), without one in the arithmetic of `T`.
-    fn rates<F: SliceCounts, M: Computes<F, T>>(
-        motion: &Motion<M, F, Self>,
-        workspace: Option<&mut Workspace<T>>,
-        time: T,
-        state: [&[T]; 2],
-        rates: [&mut [T]; 2],
-    );
-}
-
-/// External action whose constants can be converted to any scalar type.
-pub trait CastAction<T: Scalar>: Action<T> {
-    /// Action on other scalars.
-    type On<S: Scalar>: Action<S>;
-
-    /// Returns the action with each constant converted by `convert`.
-    fn on<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Self::On<S>;
-}
-
-/// Wrapper of a caller's value that need not implement `Debug`.
-#[derive(Clone, Copy)]
-pub struct Opaque<A>(pub(super) A);
-
-impl<A> fmt::Debug for Opaque<A> {
+impl<M: fmt::Debug, F, A> fmt::Debug for Motion<M, F, A> {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        formatter.write_str("..")
+        let Self {
+            model,
+            function: _,
+            index,
+            differences,
+            action: _,
+        } = self;
+        formatter
+            .debug_struct("Motion")
+            .field("model", model)
+            .field("index", index)
+            .field("differences", differences)
+            .finish_non_exhaustive()
     }
 }
-
-/// No action from outside.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Free;
 
 impl<M, F, A> Motion<M, F, A> {
     pub(super) const fn new_of(model: M, index: usize, differences: usize, action: A) -> Self {
@@ -78,6 +52,11 @@ impl<M, F, A> Motion<M, F, A> {
             differences,
             action,
         }
+    }
+
+    /// Returns the number of difference coordinates, which follow the angles of the model's links.
+    pub fn differences(&self) -> usize {
+        self.differences
     }
 
     /// Returns the number of coordinates.
@@ -91,7 +70,7 @@ impl<M, F, A> Motion<M, F, A> {
     /// Computes the accelerations by the function `F`, from angles, angular velocities, differences
     /// and their rates, and, if the function takes them, torques on links and on differences.
     #[inline(always)]
-    pub(super) fn accelerate<T: Scalar>(
+    fn accelerate<T: Scalar>(
         &self,
         workspace: Option<&mut Workspace<T>>,
         time: T,
@@ -119,27 +98,18 @@ impl<M, F, A> Motion<M, F, A> {
             ],
         };
         let given = all.get(..F::ARGUMENTS).unwrap_or_default();
-        let index = self.index;
         let results = &mut [accelerations];
-        compute_in(&self.model, workspace, At { time, index }, given, results);
+        compute_in(&self.model, workspace, self.at(time), given, results);
     }
 
-    /// Writes the velocities and the accelerations of a motion without external action.
     #[inline(always)]
-    pub(super) fn rates_freely<T: Scalar>(
-        &self,
-        workspace: Option<&mut Workspace<T>>,
-        time: T,
-        [angles, velocities]: [&[T]; 2],
-        [first, second]: [&mut [T]; 2],
-    ) where
-        F: SliceCounts,
-        M: Computes<F, T>,
-    {
-        first.copy_from_slice(velocities);
-        self.accelerate(workspace, time, [angles, velocities], &[], second);
+    pub(super) fn at<T>(&self, time: T) -> At<T> {
+        let index = self.index;
+        At { time, index }
     }
 
+    /// Writes the rates of a state. With a workspace, they are computed in fused arithmetic (one
+    /// rounding per multiply–add), without one in the arithmetic of `T`.
     #[inline(always)]
     fn write<T: Scalar>(
         &self,
@@ -152,30 +122,32 @@ impl<M, F, A> Motion<M, F, A> {
         M: Computes<F, T>,
         A: Action<T>,
     {
-        if let Some((state, rates)) = halves(self.coordinates::<T>(), state, rates) {
-            A::rates(self, workspace, time, state, rates);
+        let halves = halves(self.coordinates::<T>(), state, rates);
+        let Some(([angles, velocities], [first, second])) = halves else {
+            return;
+        };
+        match F::MOTION {
+            Some(MotionKind::Free) => {
+                first.copy_from_slice(velocities);
+                self.accelerate(workspace, time, [angles, velocities], &[], second);
+            }
+            Some(MotionKind::UnderTorques) => {
+                // The torques use the memory of the velocities until these are written.
+                self.action.act(time, angles, velocities, first);
+                self.accelerate(workspace, time, [angles, velocities], first, second);
+                first.copy_from_slice(velocities);
+            }
+            Some(MotionKind::Prescribed) => {
+                let (state, rates) = ([angles, velocities], [first, second]);
+                prescribed::write(self, workspace, time, state, rates, None);
+            }
+            None => {
+                let nan = T::from_f64(f64::NAN);
+                [first, second]
+                    .into_iter()
+                    .for_each(|rates| rates.fill(nan));
+            }
         }
-    }
-}
-
-impl<T: Scalar> Action<T> for Free {
-    #[inline(always)]
-    fn rates<F: SliceCounts, M: Computes<F, T>>(
-        motion: &Motion<M, F, Self>,
-        workspace: Option<&mut Workspace<T>>,
-        time: T,
-        [angles, velocities]: [&[T]; 2],
-        [first, second]: [&mut [T]; 2],
-    ) {
-        motion.rates_freely(workspace, time, [angles, velocities], [first, second]);
-    }
-}
-
-impl<T: Scalar> CastAction<T> for Free {
-    type On<S: Scalar> = Self;
-
-    fn on<S: Scalar>(&self, _: impl Fn(T) -> S) -> Self {
-        Self
     }
 }
 
@@ -211,13 +183,13 @@ where
 impl<T, M, F, A> LaneOde<T> for Motion<M, F, A>
 where
     T: Scalar,
-    F: MotionFunction<M, T>,
+    F: SliceCounts,
     M: Computes<F, T>,
     A: CastAction<T>,
 {
     type Of<S: Scalar> = Motion<M::On<S>, F, A::On<S>>;
 
-    const DIMENSION: Option<usize> = twice(F::COORDINATES);
+    const DIMENSION: Option<usize> = twice(M::COORDINATES);
 
     fn on_scalar<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Self::Of<S> {
         let (model, action) = (self.model.on(&convert), self.action.on(&convert));
@@ -239,7 +211,7 @@ impl<T, S, M, F, A> CastOde<T, S> for Motion<M, F, A>
 where
     T: Scalar,
     S: Scalar,
-    F: MotionFunction<M, T>,
+    F: SliceCounts,
     M: Computes<F, T>,
     A: CastAction<T>,
 {

@@ -1,10 +1,10 @@
 //! Pendulums in which the motion of some links is prescribed.
 
 use alloc::vec::Vec;
+use core::fmt;
 
 use super::function::{At, Computes, SliceCounts, compute_in, functions};
-use super::motion::{Action, CastAction, Motion, MotionFunction, Opaque};
-use super::{Forced, Workspace};
+use super::{Action, CastAction, Forced, Motion, Workspace};
 use crate::scalar::Scalar;
 
 /// State of a tree with prescribed links: angles, velocities, external torques, and the
@@ -113,31 +113,6 @@ impl<T: Scalar, P: Prescribed<T>> Prescribed<T> for &P {
 /// Angle (rad), angular velocity (rad/s) and angular acceleration (rad/s²) of a prescribed link.
 pub type LinkCourse<T> = [T; 3];
 
-/// Prescribed motion of links as a function of time. Functions `|time, course| …` implement this
-/// trait.
-pub trait LinkCourses<T> {
-    /// Writes the motion of each link of the set at `time` (s) to `course`.
-    fn courses_into(&self, time: T, course: &mut [LinkCourse<T>]);
-}
-
-impl<T, F: Fn(T, &mut [LinkCourse<T>])> LinkCourses<T> for F {
-    #[inline]
-    fn courses_into(&self, time: T, course: &mut [LinkCourse<T>]) {
-        self(time, course);
-    }
-}
-
-/// Prescribed motion whose constants can be converted to any scalar type, so that ensembles can
-/// integrate several trajectories at once; the counterpart of [`LaneTorques`](super::LaneTorques).
-pub trait LaneCourses<T: Scalar>: LinkCourses<T> {
-    /// The type of this motion with constants of the scalar type `S`.
-    type Of<S: Scalar>: LinkCourses<S>;
-
-    /// Returns the motion with each constant converted by `convert`, as in
-    /// [`Model::cast`](super::Model::cast).
-    fn on_scalar<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Self::Of<S>;
-}
-
 /// A pendulum of which a set of links moves as a function of time, as a first-order system in
 /// absolute angles: the state is the angles of all links followed by their angular velocities. The
 /// start state should agree with the function for the prescribed links; later states then agree as
@@ -182,16 +157,56 @@ pub trait LaneCourses<T: Scalar>: LinkCourses<T> {
 /// assert!((alpha + pace * pace * theta[0]).abs() < 1e-6);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-pub type PrescribedOde<P, F> = Motion<P, functions::AccelerationsOfHeldLinks, Courses<F>>;
+pub type PrescribedOde<P, C> = Motion<P, functions::AccelerationsOfHeldLinks, Courses<C>>;
 
-/// Action on a motion: the links of a set move as a function prescribes.
+/// Prescribed motion of the links of a set.
 #[derive(Clone, Debug)]
-pub struct Courses<F> {
+pub struct Courses<C> {
     links: Vec<usize>,
-    course: Opaque<F>,
+    course: C,
 }
 
-impl<P, F> PrescribedOde<P, F> {
+impl<T, C: Action<T>> Action<T> for Courses<C> {
+    #[inline]
+    fn act(&self, time: T, theta: &[T], omega: &[T], values: &mut [T]) {
+        self.course.act(time, theta, omega, values);
+    }
+
+    fn prescribed_links(&self) -> &[usize] {
+        &self.links
+    }
+}
+
+impl<T: Scalar, C: CastAction<T>> CastAction<T> for Courses<C> {
+    type On<S: Scalar> = Courses<C::On<S>>;
+
+    fn on<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Self::On<S> {
+        Courses {
+            links: self.links.clone(),
+            course: self.course.on(convert),
+        }
+    }
+}
+
+/// Prescribed motion as a function `|time, course| …` of the time.
+#[derive(Clone, Copy)]
+pub struct CourseFn<F>(F);
+
+impl<F> fmt::Debug for CourseFn<F> {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.debug_tuple("CourseFn").finish_non_exhaustive()
+    }
+}
+
+impl<T, F: Fn(T, &mut [LinkCourse<T>])> Action<T> for CourseFn<F> {
+    #[inline]
+    fn act(&self, time: T, _: &[T], _: &[T], values: &mut [T]) {
+        let (courses, _) = values.as_chunks_mut();
+        (self.0)(time, courses);
+    }
+}
+
+impl<P, F> PrescribedOde<P, CourseFn<F>> {
     /// Creates the system of a pendulum (or of a reference to one) in which `course(time, out)`
     /// writes the motion of the links of the set; `None` if there is no such set.
     pub fn new<T: Scalar>(pendulum: P, set: usize, course: F) -> Option<Self>
@@ -199,18 +214,19 @@ impl<P, F> PrescribedOde<P, F> {
         P: Prescribed<T>,
         F: Fn(T, &mut [LinkCourse<T>]),
     {
-        Self::of(pendulum, set, course)
+        Self::of(pendulum, set, CourseFn(course))
     }
+}
 
-    /// Creates the system of a pendulum with a motion of a type that implements [`LinkCourses`];
-    /// `None` if there is no such set.
-    pub fn of<T: Scalar>(pendulum: P, set: usize, course: F) -> Option<Self>
+impl<P, C> PrescribedOde<P, C> {
+    /// Creates the system of a pendulum (or of a reference to one) with a motion of a type that
+    /// implements [`Action`]; `None` if there is no such set.
+    pub fn of<T: Scalar>(pendulum: P, set: usize, course: C) -> Option<Self>
     where
         P: Prescribed<T>,
-        F: LinkCourses<T>,
+        C: Action<T>,
     {
         let links = pendulum.prescribed_links(set)?.to_vec();
-        let course = Opaque(course);
         Some(Self::new_of(pendulum, set, 0, Courses { links, course }))
     }
 
@@ -224,7 +240,7 @@ impl<P, F> PrescribedOde<P, F> {
     pub fn reactions_into<T: Scalar>(&self, time: T, state: &[T], reactions: &mut [T])
     where
         P: Prescribed<T>,
-        F: LinkCourses<T>,
+        C: Action<T>,
     {
         let nan = T::from_f64(f64::NAN);
         let links = self.model.links();
@@ -241,16 +257,16 @@ impl<P, F> PrescribedOde<P, F> {
 
 /// Writes the velocities and accelerations of the system and, if requested, the reactions.
 #[inline(always)]
-fn write<T: Scalar, F: SliceCounts, P: Computes<F, T>, C: LinkCourses<T>>(
-    motion: &Motion<P, F, Courses<C>>,
+pub(super) fn write<T: Scalar, F: SliceCounts, P: Computes<F, T>, A: Action<T>>(
+    motion: &Motion<P, F, A>,
     workspace: Option<&mut Workspace<T>>,
     time: T,
     [theta, omega]: [&[T]; 2],
     [velocities, alpha]: [&mut [T]; 2],
     requested: Option<&mut [T]>,
 ) {
-    let set = &motion.action;
-    let (links, prescribed) = (theta.len(), set.links.len());
+    let set = motion.action.prescribed_links();
+    let (links, prescribed) = (theta.len(), set.len());
     let mut own = Workspace::new();
     let is_kept = workspace.is_some();
     let (room, inner) = workspace
@@ -264,10 +280,10 @@ fn write<T: Scalar, F: SliceCounts, P: Computes<F, T>, C: LinkCourses<T>>(
     torques.fill(T::from_f64(0.0));
     angles.copy_from_slice(theta);
     rates.copy_from_slice(omega);
+    motion.action.act(time, theta, omega, courses);
     let (courses, _) = courses.as_chunks_mut::<3>();
-    set.course.0.courses_into(time, courses);
     for ((&link, &mut [angle, rate, alpha]), prescribed) in
-        set.links.iter().zip(courses).zip(&mut *prescribed)
+        set.iter().zip(courses).zip(&mut *prescribed)
     {
         *prescribed = alpha;
         if let (Some(own_angle), Some(own_rate)) = (angles.get_mut(link), rates.get_mut(link)) {
@@ -275,40 +291,8 @@ fn write<T: Scalar, F: SliceCounts, P: Computes<F, T>, C: LinkCourses<T>>(
         }
     }
     velocities.copy_from_slice(rates);
-    let at = At {
-        time,
-        index: motion.index,
-    };
     let given: [&[T]; 4] = [angles, rates, torques, prescribed];
     let results = &mut [alpha, requested.unwrap_or(reactions)];
     let inner = is_kept.then_some(inner);
-    compute_in(&motion.model, inner, at, &given, results);
-}
-
-impl<T: Scalar, C: LinkCourses<T>> Action<T> for Courses<C> {
-    #[inline(always)]
-    fn rates<F: SliceCounts, M: Computes<F, T>>(
-        motion: &Motion<M, F, Self>,
-        workspace: Option<&mut Workspace<T>>,
-        time: T,
-        state: [&[T]; 2],
-        rates: [&mut [T]; 2],
-    ) {
-        write(motion, workspace, time, state, rates, None);
-    }
-}
-
-impl<T: Scalar, C: LaneCourses<T>> CastAction<T> for Courses<C> {
-    type On<S: Scalar> = Courses<C::Of<S>>;
-
-    fn on<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Self::On<S> {
-        Courses {
-            links: self.links.clone(),
-            course: Opaque(self.course.0.on_scalar(convert)),
-        }
-    }
-}
-
-impl<P: Computes<Self, T>, T: Scalar> MotionFunction<P, T> for functions::AccelerationsOfHeldLinks {
-    const COORDINATES: Option<usize> = P::KNOWN_LINKS;
+    compute_in(&motion.model, inner, motion.at(time), &given, results);
 }

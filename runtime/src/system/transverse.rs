@@ -1,9 +1,8 @@
 //! Small differences between copies that move in phase.
 
 use super::by_reference::by_reference;
-use super::function::{At, Computes, SliceCounts, functions};
-use super::motion::{Action, CastAction, Motion, MotionFunction};
-use super::{Pendulum, Workspace};
+use super::function::{At, Computes, functions};
+use super::{Free, Motion, Pendulum, Workspace};
 use crate::scalar::Scalar;
 
 /// Set of copies that move in phase, and whose small differences obey separate equations.
@@ -155,7 +154,7 @@ pub trait Transverse<T: Scalar>: Pendulum<T> + Computes<functions::LinearDiffere
 /// assert!(growth(42.0).unwrap() < 10.0 && growth(44.0).unwrap() > 10.0);
 /// # }
 /// ```
-pub type TransverseOde<P> = Motion<P, functions::LinearDifferences, TransverseSector>;
+pub type TransverseOde<P> = Motion<P, functions::LinearDifferences, Free>;
 
 impl<P> TransverseOde<P> {
     /// Creates the first-order system of a model (or of a reference to one): its in-phase motion
@@ -164,57 +163,8 @@ impl<P> TransverseOde<P> {
     where
         P: Transverse<T>,
     {
-        let action = *P::TRANSVERSE.get(sector)?;
-        Some(Self::new_of(model, sector, action.links, action))
-    }
-
-    /// Returns the sector to which the differences belong.
-    pub fn sector(&self) -> &TransverseSector {
-        &self.action
-    }
-}
-
-impl<P: Transverse<T>, T: Scalar> MotionFunction<P, T> for functions::LinearDifferences {
-    const COORDINATES: Option<usize> = match (P::KNOWN_LINKS, common_links(P::TRANSVERSE)) {
-        (Some(motion), Some(links)) => Some(motion + links),
-        _ => None,
-    };
-}
-
-/// The differences of a sector move without external action.
-impl<T: Scalar> Action<T> for TransverseSector {
-    #[inline(always)]
-    fn rates<F: SliceCounts, M: Computes<F, T>>(
-        motion: &Motion<M, F, Self>,
-        workspace: Option<&mut Workspace<T>>,
-        time: T,
-        state: [&[T]; 2],
-        rates: [&mut [T]; 2],
-    ) {
-        motion.rates_freely(workspace, time, state, rates);
-    }
-}
-
-impl<T: Scalar> CastAction<T> for TransverseSector {
-    type On<S: Scalar> = Self;
-
-    fn on<S: Scalar>(&self, _: impl Fn(T) -> S) -> Self {
-        *self
-    }
-}
-
-/// Returns the number of links of a sector if it is the same for all sectors, else `None`.
-const fn common_links(sectors: &[TransverseSector]) -> Option<usize> {
-    let mut index = 0;
-    while index < sectors.len() {
-        if sectors[index].links != sectors[0].links {
-            return None;
-        }
-        index += 1;
-    }
-    match sectors {
-        [] => None,
-        [first, ..] => Some(first.links),
+        let differences = P::TRANSVERSE.get(sector)?.links;
+        Some(Self::new_of(model, sector, differences, Free))
     }
 }
 

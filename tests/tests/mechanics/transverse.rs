@@ -248,7 +248,7 @@ fn energies_and_transfers() {
 /// Differences of a sector at the end of the span, which were 1.
 fn differences<M: Transverse<f64>>(model: &M, sector: usize, start: &[f64], span: f64) -> Vec<f64> {
     let ode = TransverseOde::new(model, sector).expect("a sector");
-    let links = ode.sector().links;
+    let links = ode.differences();
     let mut angles = start.to_vec();
     angles.extend(vec![1.0; links]);
     let method = Dop853::new(Options::with_tolerance(1e-12));

@@ -1,7 +1,7 @@
 //! Energy against the work of all that acts from outside, in every form of tree.
 
 use branched_pendulum::prelude::*;
-use branched_pendulum::system::{Torques, Workspace};
+use branched_pendulum::system::{Action, Workspace};
 use branched_pendulum_compiler_tests::random::Random;
 
 use super::gusts::Gusts;
@@ -17,7 +17,7 @@ struct WithWork<'m, P, Q, W> {
 impl<P, Q, W> Ode<f64> for WithWork<'_, P, Q, W>
 where
     P: Forced<f64>,
-    Q: Torques<f64>,
+    Q: Action<f64>,
     W: Fn(f64, &[f64], &[f64], &[f64]) -> f64,
 {
     fn dimension(&self) -> usize {
@@ -39,7 +39,7 @@ where
         let (theta, rest) = state.split_at(links);
         let omega = &rest[..links];
         let mut torques = vec![0.0; links];
-        self.torques.torques_into(time, theta, omega, &mut torques);
+        self.torques.act(time, theta, omega, &mut torques);
         let (velocities, rest) = rates.split_at_mut(links);
         velocities.copy_from_slice(omega);
         let (alpha, work) = rest.split_at_mut(links);
@@ -222,7 +222,7 @@ fn of_sectors() {
     let budgets = |time: f64, values: &[f64]| {
         let [theta, omega] = arrays(values);
         let mut torques = [0.0; LINKS];
-        gusts.torques_into(time, &theta, &omega, &mut torques);
+        gusts.act(time, &theta, &omega, &mut torques);
         let all = [
             model.budget_rest_under(&theta, &omega, &torques),
             model.budget_canonical_under(&theta, &omega, &torques),
@@ -245,7 +245,7 @@ fn of_sectors() {
         |time: f64, state: &[f64], rates: &mut [f64]| {
             let [theta, omega] = arrays(state);
             let mut torques = [0.0; LINKS];
-            gusts.torques_into(time, &theta, &omega, &mut torques);
+            gusts.act(time, &theta, &omega, &mut torques);
             rates[..LINKS].copy_from_slice(&omega);
             let alpha = model.accelerations_under(&theta, &omega, &torques);
             rates[LINKS..2 * LINKS].copy_from_slice(&alpha);

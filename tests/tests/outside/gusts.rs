@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use branched_pendulum::prelude::*;
-use branched_pendulum::system::{LinkPoint, Torques};
+use branched_pendulum::system::{Action, LinkPoint};
 use branched_pendulum_compiler_tests::random::Random;
 
 /// A sum of sines.
@@ -56,8 +56,8 @@ impl<'m, P: Positions<f64>> Gusts<'m, P> {
     }
 }
 
-impl<P: Positions<f64>> Torques<f64> for Gusts<'_, P> {
-    fn torques_into(&self, time: f64, theta: &[f64], _: &[f64], torques: &mut [f64]) {
+impl<P: Positions<f64>> Action<f64> for Gusts<'_, P> {
+    fn act(&self, time: f64, theta: &[f64], _: &[f64], torques: &mut [f64]) {
         let mut sum: Vec<f64> = self.couples.iter().map(|couple| couple.at(time)).collect();
         for (point, forces) in [LinkPoint::End, LinkPoint::Centre]
             .into_iter()

@@ -4,7 +4,7 @@ use branched_pendulum::prelude::*;
 use branched_pendulum::state_function;
 use branched_pendulum::system::functions::AccelerationsUnderTorques;
 use branched_pendulum::system::{
-    At, Computes, LaneOde, LaneTorques, Torques, TransverseOde, UnderTorques,
+    Action, At, CastAction, Computes, LaneOde, TransverseOde, UnderTorques,
 };
 use branched_pendulum_compiler_tests::random::Random;
 
@@ -17,9 +17,9 @@ pub(super) struct Couples<T> {
     phase: T,
 }
 
-impl<T: Scalar> Torques<T> for Couples<T> {
+impl<T: Scalar> Action<T> for Couples<T> {
     #[inline(always)]
-    fn torques_into(&self, time: T, _: &[T], omega: &[T], torques: &mut [T]) {
+    fn act(&self, time: T, _: &[T], omega: &[T], torques: &mut [T]) {
         for (link, torque) in torques.iter_mut().enumerate() {
             let pace = T::from_f64(2.0 + 0.3 * link as f64);
             let (sine, _) = (pace * time + self.phase).sin_cos();
@@ -28,10 +28,10 @@ impl<T: Scalar> Torques<T> for Couples<T> {
     }
 }
 
-impl<T: Scalar> LaneTorques<T> for Couples<T> {
-    type Of<S: Scalar> = Couples<S>;
+impl<T: Scalar> CastAction<T> for Couples<T> {
+    type On<S: Scalar> = Couples<S>;
 
-    fn on_scalar<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Couples<S> {
+    fn on<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Couples<S> {
         Couples {
             size: convert(self.size),
             phase: convert(self.phase),
@@ -99,19 +99,19 @@ fn trajectories_under_torques_in_lanes() {
 /// last bits in the plain arithmetic of one state.
 struct Ramp<T>(T);
 
-impl<T: Scalar> Torques<T> for Ramp<T> {
+impl<T: Scalar> Action<T> for Ramp<T> {
     #[inline(always)]
-    fn torques_into(&self, time: T, _: &[T], omega: &[T], torques: &mut [T]) {
+    fn act(&self, time: T, _: &[T], omega: &[T], torques: &mut [T]) {
         for (torque, &omega) in torques.iter_mut().zip(omega) {
             *torque = self.0 * time - T::from_f64(1e-4) * omega;
         }
     }
 }
 
-impl<T: Scalar> LaneTorques<T> for Ramp<T> {
-    type Of<S: Scalar> = Ramp<S>;
+impl<T: Scalar> CastAction<T> for Ramp<T> {
+    type On<S: Scalar> = Ramp<S>;
 
-    fn on_scalar<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Ramp<S> {
+    fn on<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Ramp<S> {
         Ramp(convert(self.0))
     }
 }
@@ -184,7 +184,7 @@ impl LaneOde<f64> for WithWork<f64> {
     fn on_scalar<S: Scalar>(&self, convert: impl Fn(f64) -> S) -> WithWork<S> {
         WithWork {
             model: self.model.cast(&convert),
-            couples: self.couples.on_scalar(&convert),
+            couples: self.couples.on(&convert),
         }
     }
 
@@ -192,9 +192,7 @@ impl LaneOde<f64> for WithWork<f64> {
     fn rates_of<S: Scalar>(system: &WithWork<S>, time: S, state: &[S], rates: &mut [S]) {
         let (theta, omega) = (&state[..LINKS], &state[LINKS..2 * LINKS]);
         let mut torques = [S::from_f64(0.0); LINKS];
-        system
-            .couples
-            .torques_into(time, theta, omega, &mut torques);
+        system.couples.act(time, theta, omega, &mut torques);
         rates[..LINKS].copy_from_slice(omega);
         let alpha = &mut rates[LINKS..2 * LINKS];
         let given = [theta, omega, &torques];

@@ -4,9 +4,7 @@ use std::num::NonZeroUsize;
 
 use branched_pendulum::Scalar;
 use branched_pendulum::prelude::*;
-use branched_pendulum::system::{
-    LaneCourses, LinkCourse, LinkCourses, PrescribedMotion, PrescribedOde,
-};
+use branched_pendulum::system::{Action, CastAction, PrescribedMotion, PrescribedOde};
 use branched_pendulum_compiler_tests::random::Random;
 
 use super::prescribed::{reactions_make_the_free_tree_move_so, sets};
@@ -175,9 +173,10 @@ struct Hands<T> {
     pace: T,
 }
 
-impl<T: Scalar> LinkCourses<T> for Hands<T> {
+impl<T: Scalar> Action<T> for Hands<T> {
     #[inline(always)]
-    fn courses_into(&self, time: T, courses: &mut [LinkCourse<T>]) {
+    fn act(&self, time: T, _: &[T], _: &[T], values: &mut [T]) {
+        let (courses, _) = values.as_chunks_mut();
         for (link, course) in courses.iter_mut().enumerate() {
             let pace = self.pace * T::from_f64(1.0 + 0.2 * link as f64);
             let (sine, cosine) = (pace * time).sin_cos();
@@ -187,10 +186,10 @@ impl<T: Scalar> LinkCourses<T> for Hands<T> {
     }
 }
 
-impl<T: Scalar> LaneCourses<T> for Hands<T> {
-    type Of<S: Scalar> = Hands<S>;
+impl<T: Scalar> CastAction<T> for Hands<T> {
+    type On<S: Scalar> = Hands<S>;
 
-    fn on_scalar<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Hands<S> {
+    fn on<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Hands<S> {
         Hands {
             width: convert(self.width),
             pace: convert(self.pace),
@@ -213,7 +212,7 @@ where
             let mut values = random.around_zero(2 * model().links(), 0.4);
             let links = values.len() / 2;
             let mut courses = vec![[0.0; 3]; held.prescribed_links().len()];
-            hands.courses_into(0.0, &mut courses);
+            hands.act(0.0, &[], &[], courses.as_flattened_mut());
             for (&link, [angle, rate, _]) in held.prescribed_links().iter().zip(courses) {
                 (values[link], values[links + link]) = (angle, rate);
             }

@@ -12,7 +12,7 @@ pub trait TransverseSystem: Ode<f64> {
 
 impl<P: Transverse<f64>> TransverseSystem for TransverseOde<P> {
     fn differences(&self) -> usize {
-        self.sector().links
+        TransverseOde::differences(self)
     }
 }
 

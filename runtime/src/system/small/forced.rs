@@ -1,11 +1,9 @@
 //! Small differences with back-reaction, under external torques.
 
-use super::{SmallDifferences, coordinates, differences};
+use super::{SmallDifferences, differences};
 use crate::scalar::Scalar;
-use crate::system::forced::ByTorques;
 use crate::system::function::{At, Computes, functions};
-use crate::system::motion::{Motion, MotionFunction, Opaque};
-use crate::system::{Forced, Workspace};
+use crate::system::{Forced, Motion, Workspace};
 
 /// A model of [`SmallDifferences`] that accepts external torques: `emit(small)` with
 /// `emit(forces)`.
@@ -54,9 +52,9 @@ impl<T: Scalar, P> ForcedDifferences<T> for P where
 {
 }
 
-/// [`SmallOde`](type@super::SmallOde) under external [`Torques`](crate::system::Torques). These are
-/// functions of the time, of the coordinates (angles, then differences) and of their rates, and
-/// write one generalized torque per coordinate.
+/// [`SmallOde`](type@super::SmallOde) under external torques. These are an
+/// [`Action`](crate::system::Action): a function of the time, of the coordinates (angles, then
+/// differences) and of their rates, which writes one generalized torque per coordinate.
 ///
 /// # Examples
 ///
@@ -89,32 +87,36 @@ impl<T: Scalar, P> ForcedDifferences<T> for P where
 /// assert!(one > other && other > 0.0);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-pub type SmallUnderTorques<P, F> = Motion<P, functions::SmallDifferencesUnderTorques, ByTorques<F>>;
+pub type SmallUnderTorques<P, A> = Motion<P, functions::SmallDifferencesUnderTorques, A>;
 
-impl<P, F> SmallUnderTorques<P, F> {
+impl<P, A> SmallUnderTorques<P, A> {
     /// Creates the system of a model (or of a reference to one) under the torques that
     /// `torques(time, angles, rates, out)` writes.
-    pub fn new<T: Scalar>(model: P, torques: F) -> Self
+    pub fn new<T: Scalar>(model: P, torques: A) -> Self
     where
         P: SmallDifferences<T>,
-        F: Fn(T, &[T], &[T], &mut [T]),
+        A: Fn(T, &[T], &[T], &mut [T]),
     {
         Self::of(model, torques)
     }
 
     /// Creates the system of a model (or of a reference to one) under torques of a type that
-    /// implements [`Torques`](crate::system::Torques), or under a vector of constant torques.
-    pub fn of<T: Scalar>(model: P, torques: F) -> Self
+    /// implements [`Action`](crate::system::Action), or under a vector of constant torques.
+    pub fn of<T: Scalar>(model: P, torques: A) -> Self
     where
         P: SmallDifferences<T>,
     {
         let differences = differences(P::TRANSVERSE, P::SMALL);
-        Self::new_of(model, 0, differences, ByTorques(Opaque(torques)))
+        Self::new_of(model, 0, differences, torques)
     }
-}
 
-impl<P: ForcedDifferences<T>, T: Scalar> MotionFunction<P, T>
-    for functions::SmallDifferencesUnderTorques
-{
-    const COORDINATES: Option<usize> = coordinates(P::KNOWN_LINKS, P::TRANSVERSE, P::SMALL);
+    /// Returns the torques.
+    pub fn torques(&self) -> &A {
+        &self.action
+    }
+
+    /// Returns the torques, so that they can be changed.
+    pub fn torques_mut(&mut self) -> &mut A {
+        &mut self.action
+    }
 }

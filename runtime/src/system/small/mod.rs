@@ -6,8 +6,8 @@ pub use forced::{ForcedDifferences, SmallUnderTorques};
 
 use super::by_reference::by_reference;
 use super::function::{At, Computes, functions};
-use super::motion::{Free, Motion, MotionFunction, parts};
-use super::{Transverse, TransverseSector, Workspace};
+use super::motion::parts;
+use super::{Free, Motion, Transverse, TransverseSector, Workspace};
 use crate::scalar::Scalar;
 
 /// Model of copies that move in phase, with small differences that act back on this motion:
@@ -75,19 +75,6 @@ pub(super) const fn differences(sectors: &[TransverseSector], small: &[usize]) -
     count
 }
 
-/// Returns the number of coordinates: angles and differences; `None` if the number of links is
-/// unknown.
-pub(super) const fn coordinates(
-    links: Option<usize>,
-    sectors: &[TransverseSector],
-    small: &[usize],
-) -> Option<usize> {
-    match links {
-        Some(links) => Some(links + differences(sectors, small)),
-        None => None,
-    }
-}
-
 /// First-order system of the in-phase angles and of the small differences that act back on them:
 /// the state is the angles, the differences of all sectors in the order of
 /// [`SMALL`](SmallDifferences::SMALL), the angular velocities and the rates of the differences.
@@ -137,7 +124,7 @@ impl<P> SmallOde<P> {
         P: SmallDifferences<T>,
     {
         let model = &self.model;
-        let half = model.links() + self.differences;
+        let half = model.links() + self.differences();
         if state.len() != 2 * half {
             return T::from_f64(f64::NAN);
         }
@@ -146,10 +133,6 @@ impl<P> SmallOde<P> {
         let [omega, difference_rate] = parts(model.links(), velocities);
         model.small_energy_of(theta, omega, difference, difference_rate)
     }
-}
-
-impl<P: SmallDifferences<T>, T: Scalar> MotionFunction<P, T> for functions::SmallDifferences {
-    const COORDINATES: Option<usize> = coordinates(P::KNOWN_LINKS, P::TRANSVERSE, P::SMALL);
 }
 
 by_reference! {

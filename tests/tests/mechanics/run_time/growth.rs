@@ -58,7 +58,7 @@ fn differences<P: Transverse<f64> + Copy + Sync>(
     };
     let (mut worst, mut largest) = (0.0_f64, 0.0_f64);
     for [reduced, whole] in releases {
-        let ones = vec![1.0; ode.sector().links];
+        let ones = vec![1.0; ode.differences()];
         let start = State::at_rest(0.0, &[&reduced[..], &ones].concat());
         let derived = growth.in_lanes(&Ensemble::new(), &[(ode, start)]);
         let [Ok(derived)] = derived.as_slice() else {

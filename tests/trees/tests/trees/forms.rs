@@ -3,10 +3,7 @@
 use branched_pendulum::integrate::Frames;
 use branched_pendulum::prelude::*;
 use branched_pendulum::scalar::{Double, Scalar};
-use branched_pendulum::system::{
-    CastOde, LaneCourses, LaneTorques, LinkCourse, LinkCourses, PrescribedOde, Torques,
-    UnderTorques,
-};
+use branched_pendulum::system::{Action, CastAction, CastOde, PrescribedOde, UnderTorques};
 use branched_pendulum_trees::{PendulumTree, TreeDescription};
 
 use super::mechanics::{BENT, OMEGA, THETA, bent, near};
@@ -166,16 +163,19 @@ fn trees_that_differ_in_more_than_constants_share_no_lanes() {
 #[derive(Clone, Copy)]
 struct Still;
 
-impl<T: Scalar> LinkCourses<T> for Still {
-    fn courses_into(&self, _: T, course: &mut [LinkCourse<T>]) {
-        course.fill([0.3, 0.0, 0.0].map(T::from_f64));
+impl<T: Scalar> Action<T> for Still {
+    fn act(&self, _: T, _: &[T], _: &[T], values: &mut [T]) {
+        values
+            .as_chunks_mut()
+            .0
+            .fill([0.3, 0.0, 0.0].map(T::from_f64));
     }
 }
 
-impl<T: Scalar> LaneCourses<T> for Still {
-    type Of<S: Scalar> = Still;
+impl<T: Scalar> CastAction<T> for Still {
+    type On<S: Scalar> = Still;
 
-    fn on_scalar<S: Scalar>(&self, _: impl Fn(T) -> S) -> Still {
+    fn on<S: Scalar>(&self, _: impl Fn(T) -> S) -> Still {
         Still
     }
 }
@@ -184,16 +184,16 @@ impl<T: Scalar> LaneCourses<T> for Still {
 #[derive(Clone, Copy)]
 struct Steady<T>(T);
 
-impl<T: Scalar> Torques<T> for Steady<T> {
-    fn torques_into(&self, _: T, _: &[T], _: &[T], torques: &mut [T]) {
+impl<T: Scalar> Action<T> for Steady<T> {
+    fn act(&self, _: T, _: &[T], _: &[T], torques: &mut [T]) {
         torques.fill(self.0);
     }
 }
 
-impl<T: Scalar> LaneTorques<T> for Steady<T> {
-    type Of<S: Scalar> = Steady<S>;
+impl<T: Scalar> CastAction<T> for Steady<T> {
+    type On<S: Scalar> = Steady<S>;
 
-    fn on_scalar<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Steady<S> {
+    fn on<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Steady<S> {
         Steady(convert(self.0))
     }
 }

@@ -3,9 +3,7 @@
 use branched_pendulum::ensemble::Ensemble;
 use branched_pendulum::prelude::*;
 use branched_pendulum::scalar::Scalar;
-use branched_pendulum::system::{
-    LaneCourses, LinkCourse, LinkCourses, PrescribedMotion, PrescribedOde, Workspace,
-};
+use branched_pendulum::system::{Action, CastAction, PrescribedMotion, PrescribedOde, Workspace};
 use branched_pendulum_trees::{PendulumTree, TreeDescription};
 
 use super::mechanics::{BENT, OMEGA, THETA, bent, near};
@@ -123,18 +121,18 @@ struct Swing<T> {
     rate: T,
 }
 
-impl<T: Scalar> LinkCourses<T> for Swing<T> {
-    fn courses_into(&self, time: T, course: &mut [LinkCourse<T>]) {
-        for own in course {
+impl<T: Scalar> Action<T> for Swing<T> {
+    fn act(&self, time: T, _: &[T], _: &[T], values: &mut [T]) {
+        for own in values.as_chunks_mut().0 {
             *own = [self.rate * time + self.from, self.rate, T::from_f64(0.0)];
         }
     }
 }
 
-impl<T: Scalar> LaneCourses<T> for Swing<T> {
-    type Of<S: Scalar> = Swing<S>;
+impl<T: Scalar> CastAction<T> for Swing<T> {
+    type On<S: Scalar> = Swing<S>;
 
-    fn on_scalar<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Swing<S> {
+    fn on<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Swing<S> {
         Swing {
             from: convert(self.from),
             rate: convert(self.rate),

@@ -2,7 +2,7 @@
 
 use branched_pendulum::Parametric;
 use branched_pendulum::prelude::*;
-use branched_pendulum::system::{Torques, UnderTorques};
+use branched_pendulum::system::{Action, UnderTorques};
 use branched_pendulum_measure::identification::{
     AngleRecord, Family, FamilyOf, Identification, ImpossibleValue,
 };
@@ -28,8 +28,8 @@ const WIDTH: f64 = 0.05;
 
 pub(crate) struct Laws<T>([T; 4]);
 
-impl<T: Scalar> Torques<T> for Laws<T> {
-    fn torques_into(&self, _time: T, _theta: &[T], omega: &[T], torques: &mut [T]) {
+impl<T: Scalar> Action<T> for Laws<T> {
+    fn act(&self, _time: T, _theta: &[T], omega: &[T], torques: &mut [T]) {
         let [coulomb_1, coulomb_2, quadratic_1, quadratic_2] = self.0;
         let width = T::from_f64(WIDTH);
         let speed = |rate: T| (rate * rate + width * width).sqrt();

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use branched_pendulum::prelude::*;
-use branched_pendulum::system::{LaneTorques, Torques};
+use branched_pendulum::system::{Action, CastAction};
 use rand_distr::{Distribution, StandardNormal};
 use rand_xoshiro::Xoshiro256PlusPlus;
 use rand_xoshiro::rand_core::{Rng, SeedableRng};
@@ -58,9 +58,9 @@ impl<T: Scalar> Motor<T> {
     }
 }
 
-impl<T: Scalar> Torques<T> for Motor<T> {
+impl<T: Scalar> Action<T> for Motor<T> {
     #[inline(always)]
-    fn torques_into(&self, time: T, _theta: &[T], _omega: &[T], torques: &mut [T]) {
+    fn act(&self, time: T, _theta: &[T], _omega: &[T], torques: &mut [T]) {
         torques.fill(T::from_f64(0.0));
         if let Some(root) = torques.first_mut() {
             *root = self.torque(time);
@@ -68,10 +68,10 @@ impl<T: Scalar> Torques<T> for Motor<T> {
     }
 }
 
-impl<T: Scalar> LaneTorques<T> for Motor<T> {
-    type Of<S: Scalar> = Motor<S>;
+impl<T: Scalar> CastAction<T> for Motor<T> {
+    type On<S: Scalar> = Motor<S>;
 
-    fn on_scalar<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Motor<S> {
+    fn on<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Motor<S> {
         let lines = self.lines.iter();
         Motor {
             lines: lines.map(|line| line.map(&convert)).collect(),
