@@ -16,7 +16,6 @@ impl Emission<'_> {
             .symmetric
             .is_some()
             .then(|| self.symmetric_pendulum());
-        let canonical = self.scene.requests.momenta.then(|| self.canonical());
         let sectors = self.mechanics.sectors.as_ref();
         let sectors = sectors.map(|sectors| self.sectors(sectors));
         let forms = self.transfer_forms();
@@ -30,7 +29,6 @@ impl Emission<'_> {
             #pendulum
             #energy
             #symmetric
-            #canonical
             #sectors
             #forms
             #positions
@@ -122,34 +120,6 @@ impl Emission<'_> {
                 #name { #(#fields: convert(self.#fields)),* }
             }
         })
-    }
-
-    /// Emits `impl Canonical`; slices of a wrong length give NaN.
-    fn canonical(&self) -> TokenStream {
-        let (name, runtime, links) = (&self.item.ident, self.runtime(), self.links());
-        let rates = ["q_rates", "p_rates"];
-        let body = self.fill(&rates, Purpose::CanonicalRates);
-        let time = self.time_name();
-        quote! {
-            impl<T: #runtime::Scalar> #runtime::Canonical<T> for #name<T> {
-                #[inline]
-                fn degrees_of_freedom(&self) -> usize {
-                    #links
-                }
-
-                #[inline]
-                fn canonical_rates(
-                    &self,
-                    #time: T,
-                    theta: &[T],
-                    momenta: &[T],
-                    q_rates: &mut [T],
-                    p_rates: &mut [T],
-                ) {
-                    #body
-                }
-            }
-        }
     }
 
     fn energy(&self) -> TokenStream {

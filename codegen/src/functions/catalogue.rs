@@ -73,8 +73,8 @@ impl Naming {
 /// here.
 #[rustfmt::skip]
 const OTHER_METHODS: &[&str] = &[
-    "accelerations_into", "accelerations_under_into", "cast", "check_parameters", "children",
-    "clone", "compute", "compute_with", "default", "degrees_of_freedom", "energy_of", "eq",
+    "accelerations_into", "accelerations_under_into", "canonical_rates_into", "cast",
+    "check_parameters", "children", "clone", "compute", "compute_with", "default", "energy_of", "eq",
     "evaluate", "fmt", "from", "from_parameters_unchecked", "into", "kinetic_energy_of",
     "link_body", "link_name", "link_names", "links", "new", "on", "part", "point_torques",
     "point_torques_into", "point_velocities", "point_velocities_into", "points", "points_into",

@@ -135,7 +135,7 @@ purposes! { naming:
     /// Rates ω and ṗ from θ, p.
     CanonicalRates => {
         naming.timed("canonical_rates", &[Theta, AbsoluteMomenta], Rows(2, naming.links))
-    };
+    }, computes CanonicalRates -> [angle_rates, momentum_rates];
     /// Mass matrix M at θ.
     MassMatrix => plain("mass_matrix", &[Theta], Rows(naming.links, naming.links));
     /// Stiffness matrix ∂²U/∂θ∂θ at θ.

@@ -1,8 +1,9 @@
 //! Quantities that a motion conserves.
 
 use super::derivatives::{Slopes, gradient};
+use super::function::{Computes, functions};
 use super::ode::halves;
-use super::{Canonical, Energy, Model, Workspace};
+use super::{Energy, Model, Workspace};
 use crate::scalar::Scalar;
 
 /// A function of the state that is constant along every motion, with its gradient.
@@ -56,14 +57,18 @@ impl<T, F: Fn(&[T], &mut [T]) -> T> FirstIntegral<T> for F {
 #[derive(Clone, Copy, Debug)]
 pub struct CanonicalEnergy<P>(pub P);
 
-impl<T: Scalar, P: Canonical<T> + Energy<T>> FirstIntegral<T> for CanonicalEnergy<P> {
+impl<T, P> FirstIntegral<T> for CanonicalEnergy<P>
+where
+    T: Scalar,
+    P: Energy<T> + Computes<functions::CanonicalRates, T>,
+{
     fn evaluate(&self, state: &[T], gradient: &mut [T]) -> T {
-        let n = self.0.degrees_of_freedom();
+        let n = self.0.links();
         let Some(([q, p], [slopes, velocities])) = halves(n, state, gradient) else {
             return T::from_f64(f64::NAN);
         };
         let time = T::from_f64(0.0);
-        self.0.canonical_rates(time, q, p, velocities, slopes);
+        self.0.canonical_rates_into(time, q, p, velocities, slopes);
         for slope in slopes {
             *slope = -*slope;
         }

@@ -55,6 +55,8 @@ pub enum MotionKind {
     /// The function returns accelerations and reactions, given angles, angular velocities, external
     /// torques and the accelerations of prescribed links.
     Prescribed,
+    /// The function returns the rates of coordinates and of momenta, given both.
+    Canonical,
 }
 
 macro_rules! function {
@@ -137,6 +139,12 @@ pub mod functions {
     }
 
     function! {
+        /// Rates of the angles (rad/s) and of their momenta (N m), from angles (rad) and momenta
+        /// (kg m²/s): Hamilton's equations with generalized forces.
+        CanonicalRates: 2 -> 2, Canonical
+    }
+
+    function! {
         /// Second derivatives (rad/s²) of symmetric coordinates (rad), from the coordinates and
         /// their rates.
         SymmetricAccelerations: 2 -> 1, Free
@@ -149,7 +157,7 @@ pub mod functions {
 /// of equations ([`Motion`](super::Motion)), also in lanes, and all of these in other scalar types.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` has no function `{F}` in `{T}`",
-    note = "torques from outside are requested by `emit(forces)`, the torques of a given motion by `emit(inverse_dynamics)`, derivatives by `emit(gradient)`, held links by `prescribed(LINK)`, linear differences by `in_phase(…)` with `emit(transverse)`, those that act back by `emit(small)`, symmetric coordinates by `emit(symmetric)`"
+    note = "torques from outside are requested by `emit(forces)`, the torques of a given motion by `emit(inverse_dynamics)`, derivatives by `emit(gradient)`, held links by `prescribed(LINK)`, linear differences by `in_phase(…)` with `emit(transverse)`, those that act back by `emit(small)`, symmetric coordinates by `emit(symmetric)`, canonical variables by `emit(momenta)`"
 )]
 pub trait Computes<F: SliceCounts, T: Scalar>: Model<T> {
     /// The type of the model with constants of the scalar type `S`, which has the function too.

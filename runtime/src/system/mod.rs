@@ -37,7 +37,7 @@ mod whole_tree;
 mod workspace;
 
 pub use action::{Action, CastAction, Free};
-pub use canonical::{Canonical, CanonicalVariables};
+pub use canonical::CanonicalVariables;
 pub use cast_ode::CastOde;
 pub use coordinates::{AbsoluteAngles, SymmetricCoordinates, SymmetricPendulum};
 #[doc(hidden)]

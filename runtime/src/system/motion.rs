@@ -10,11 +10,12 @@ use super::{Action, CastAction, CastOde, LaneOde, Model, Ode, Workspace, prescri
 use crate::scalar::Scalar;
 
 /// Motion of a model `M` as a first-order system. `F` is the function that computes the rates, `A`
-/// the external [`Action`]. The state is the coordinates followed by their velocities.
-/// [`UnderTorques`](super::UnderTorques), [`PrescribedOde`](super::PrescribedOde),
+/// the external [`Action`]. The state is the coordinates followed by their velocities,
+/// or by their momenta. [`UnderTorques`](super::UnderTorques), [`PrescribedOde`](super::PrescribedOde),
 /// [`TransverseOde`](super::TransverseOde), [`SmallOde`](type@super::SmallOde),
-/// [`SmallUnderTorques`](super::SmallUnderTorques) and
-/// [`SymmetricCoordinates`](type@super::SymmetricCoordinates) are motions of this type.
+/// [`SmallUnderTorques`](super::SmallUnderTorques),
+/// [`SymmetricCoordinates`](type@super::SymmetricCoordinates) and
+/// [`CanonicalVariables`](type@super::CanonicalVariables) are motions of this type.
 #[derive(Clone, Copy, PartialEq)]
 pub struct Motion<M, F, A> {
     pub(super) model: M,
@@ -140,6 +141,10 @@ impl<M, F, A> Motion<M, F, A> {
             Some(MotionKind::Prescribed) => {
                 let (state, rates) = ([angles, velocities], [first, second]);
                 prescribed::write(self, workspace, time, state, rates, None);
+            }
+            Some(MotionKind::Canonical) => {
+                let (given, results) = ([angles, velocities], &mut [first, second]);
+                compute_in(&self.model, workspace, self.at(time), &given, results);
             }
             None => {
                 let nan = T::from_f64(f64::NAN);

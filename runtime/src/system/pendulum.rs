@@ -2,6 +2,7 @@
 
 use core::marker::PhantomData;
 
+use super::function::{At, Computes, functions};
 use super::model::known;
 use super::{Model, Workspace};
 use crate::scalar::{Scalar, at};
@@ -64,6 +65,27 @@ pub trait Pendulum<T: Scalar>: Model<T> {
     ) {
         let _ = workspace;
         self.accelerations_into(time, theta, omega, alpha);
+    }
+
+    /// Writes the rates of the angles `theta` (rad) and of their `momenta` (kg m²/s) at `time` (s):
+    /// Hamilton's equations. All slices have one number for each [link](Model::links); for other
+    /// lengths the results are NaN. Compiled models have this function if the description has
+    /// `emit(momenta)`. [`CanonicalVariables`](type@super::CanonicalVariables) is the system that
+    /// integrators take.
+    #[inline]
+    fn canonical_rates_into(
+        &self,
+        time: T,
+        theta: &[T],
+        momenta: &[T],
+        angle_rates: &mut [T],
+        momentum_rates: &mut [T],
+    ) where
+        Self: Computes<functions::CanonicalRates, T>,
+    {
+        let results = &mut [angle_rates, momentum_rates];
+        let workspace = &mut Workspace::new();
+        self.compute_with(workspace, At::time(time), &[theta, momenta], results);
     }
 
     /// Returns the length of the buffer that [`in_registers`](Self::in_registers) needs.

@@ -1,7 +1,7 @@
 //! Problems that come with their answers.
 
 use branched_pendulum::prelude::*;
-use branched_pendulum::system::functions::SymmetricAccelerations;
+use branched_pendulum::system::functions::{CanonicalRates, SymmetricAccelerations};
 use branched_pendulum::system::{At, Computes, LinkName};
 
 /// A system of any rates. Rates are called by their address, so that each method is compiled
@@ -220,28 +220,35 @@ impl<T: Scalar> Computes<SymmetricAccelerations, T> for BranchedDouble {
 /// In absolute angles and their momenta p = M ω: ω by elimination, and
 /// ∂L/∂θ_1 = μ ω_1 Σ sin(θ_j − θ_1) ω_j − G_1 sin θ_1,
 /// ∂L/∂θ_j = −μ ω_1 sin(θ_j − θ_1) ω_j − G_2 sin θ_j.
-impl Canonical<f64> for BranchedDouble {
-    fn degrees_of_freedom(&self) -> usize {
-        3
+impl<T: Scalar> Computes<CanonicalRates, T> for BranchedDouble {
+    type On<S: Scalar> = BranchedDouble;
+
+    fn on<S: Scalar>(&self, _: impl Fn(T) -> S) -> BranchedDouble {
+        *self
     }
 
-    fn canonical_rates(&self, _time: f64, q: &[f64], p: &[f64], omega: &mut [f64], f: &mut [f64]) {
+    fn compute(&self, _: At<T>, given: &[&[T]], results: &mut [&mut [T]]) {
+        let (&[q, p], [omega, f]) = (given, results) else {
+            return;
+        };
+        let number = T::from_f64;
+        let (m2, mu, g2) = (number(self.m2), number(self.mu), number(self.g2));
         let coupling = [1, 2].map(|j| {
             let (sine, cosine) = (q[j] - q[0]).sin_cos();
-            (self.mu * sine, self.mu * cosine)
+            (mu * sine, mu * cosine)
         });
-        let (mut inertia, mut momentum) = (self.m1, p[0]);
+        let (mut inertia, mut momentum) = (number(self.m1), p[0]);
         for (j, (_, cosine)) in [1, 2].into_iter().zip(coupling) {
-            inertia -= cosine * cosine / self.m2;
-            momentum -= cosine * p[j] / self.m2;
+            inertia = inertia - cosine * cosine / m2;
+            momentum = momentum - cosine * p[j] / m2;
         }
         omega[0] = momentum / inertia;
-        f[0] = -self.g1 * q[0].sin();
+        f[0] = -(number(self.g1) * q[0].sin_cos().0);
         for (j, (sine, cosine)) in [1, 2].into_iter().zip(coupling) {
-            omega[j] = (p[j] - cosine * omega[0]) / self.m2;
+            omega[j] = (p[j] - cosine * omega[0]) / m2;
             let exchange = sine * omega[0] * omega[j];
-            f[0] += exchange;
-            f[j] = -exchange - self.g2 * q[j].sin();
+            f[0] = f[0] + exchange;
+            f[j] = -exchange - g2 * q[j].sin_cos().0;
         }
     }
 }
@@ -251,7 +258,7 @@ impl BranchedDouble {
     pub(crate) fn hamiltonian(&self, state: &[f64]) -> f64 {
         let (q, p) = state.split_at(3);
         let (mut omega, mut rates) = ([0.0; 3], [0.0; 3]);
-        self.canonical_rates(0.0, q, p, &mut omega, &mut rates);
+        self.canonical_rates_into(0.0, q, p, &mut omega, &mut rates);
         let kinetic: f64 = omega.iter().zip(p).map(|(w, p)| 0.5 * w * p).sum();
         kinetic + self.potential_energy_of(q)
     }

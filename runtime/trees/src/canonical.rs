@@ -1,7 +1,9 @@
 //! Hamilton's equations.
 
+use branched_pendulum::emitted::no_answer;
 use branched_pendulum::scalar::{Dual, Scalar};
-use branched_pendulum::system::{Canonical, LinkProperties, Model, Pendulum, Workspace};
+use branched_pendulum::system::functions::CanonicalRates;
+use branched_pendulum::system::{At, Computes, LinkProperties, Model, Workspace};
 use branched_pendulum_codegen::scene::{FrictionLaw, LAW_CONSTANTS, PassiveTorques};
 
 use crate::between::Between;
@@ -48,38 +50,72 @@ impl<T: Scalar> PendulumTree<T> {
 
 /// Velocities are M⁻¹ p. The rates of the momenta are the derivative of the momenta along the
 /// motion, so that this code needs no knowledge of friction, springs and drive. O(links²);
-/// allocates.
-impl<T: Scalar> Canonical<T> for PendulumTree<T> {
-    fn degrees_of_freedom(&self) -> usize {
-        self.links()
+/// allocates. One state and lanes agree to rounding: the momenta of one state are not computed in
+/// fused arithmetic.
+impl<T: Scalar> Computes<CanonicalRates, T> for PendulumTree<T> {
+    type On<S: Scalar> = PendulumTree<S>;
+
+    fn on<S: Scalar>(&self, convert: impl Fn(T) -> S) -> PendulumTree<S> {
+        self.on_scalar(&convert)
     }
 
-    fn canonical_rates(
+    #[inline(always)]
+    fn compute(&self, at: At<T>, given: &[&[T]], results: &mut [&mut [T]]) {
+        self.canonical(
+            at.time,
+            given,
+            results,
+            |equations, acting, given, alpha| {
+                equations.evaluate_under(acting, given, alpha);
+            },
+        );
+    }
+
+    fn compute_with(
+        &self,
+        workspace: &mut Workspace<T>,
+        at: At<T>,
+        given: &[&[T]],
+        results: &mut [&mut [T]],
+    ) {
+        self.canonical(
+            at.time,
+            given,
+            results,
+            |equations, acting, given, alpha| {
+                equations.accelerate(workspace, acting, given, alpha);
+            },
+        );
+    }
+}
+
+impl<T: Scalar> PendulumTree<T> {
+    /// Computes canonical rates from accelerations that `accelerate` computes by given equations.
+    #[inline(always)]
+    fn canonical(
         &self,
         time: T,
-        theta: &[T],
-        momenta: &[T],
-        q_rates: &mut [T],
-        p_rates: &mut [T],
+        given: &[&[T]],
+        results: &mut [&mut [T]],
+        mut accelerate: impl FnMut(&Equations<T>, Acting<'_, T>, [&[T]; 2], &mut [T]),
     ) {
+        let (&[theta, momenta], [q_rates, p_rates]) = (given, &mut *results) else {
+            return no_answer(results);
+        };
         let n = self.links();
         if [theta.len(), momenta.len(), q_rates.len(), p_rates.len()] != [n; 4] {
-            for rates in [q_rates, p_rates] {
-                rates.fill(T::from_f64(f64::NAN));
-            }
-            return;
+            return no_answer(results);
         }
         // M ω = p.
-        let workspace = &mut Workspace::new();
         let still = vec![T::from_f64(0.0); n];
         let acting = Acting {
             drive: None,
             torques: Some(momenta),
         };
-        self.inertia_alone()
-            .accelerate(workspace, acting, [theta, &still], q_rates);
+        accelerate(&self.inertia_alone(), acting, [theta, &still], q_rates);
         let mut alpha = still;
-        self.accelerations_with(workspace, time, theta, q_rates, &mut alpha);
+        let acting = self.acting(time, None);
+        accelerate(&self.equations, acting, [theta, &**q_rates], &mut alpha);
         let along = |values: &[T], rates: &[T]| -> Vec<Dual<T, 1>> {
             let pairs = values.iter().zip(rates);
             let moving = |(&value, &rate): (&T, &T)| Dual {

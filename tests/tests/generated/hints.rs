@@ -29,7 +29,7 @@ const MISTAKES: [(&str, &str); 9] = [
     ),
     (
         "let _ = method.run(&CanonicalVariables(model), start, 1.0);",
-        "a model has them with `emit(momenta)` in its attribute",
+        "canonical variables by `emit(momenta)`",
     ),
     (
         "fn energy<P: Energy<f64>>(_: P) {} energy(model);",

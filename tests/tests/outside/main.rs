@@ -4,6 +4,7 @@
 mod adjoint;
 mod antiphase;
 mod balance;
+mod canonical;
 mod changes;
 mod gusts;
 mod inverse_dynamics;

@@ -63,11 +63,6 @@ fn equations(name: &Ident, runtime: &TokenStream) -> TokenStream {
             pub const SECTORS: &'static [#runtime::sectors::Sector] = &[];
         }
 
-        impl<T: #runtime::Scalar> #runtime::Canonical<T> for #name<T> {
-            fn degrees_of_freedom(&self) -> usize { 0 }
-            fn canonical_rates(&self, _: T, _: &[T], _: &[T], _: &mut [T], _: &mut [T]) {}
-        }
-
         impl<T: #runtime::Scalar> #runtime::Model<T> for #name<T> {
             type Of<#other: #runtime::Scalar> = #name<#other>;
             const KNOWN_LINKS: ::core::option::Option<usize> = ::core::option::Option::Some(0);

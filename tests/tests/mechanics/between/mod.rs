@@ -170,7 +170,7 @@ fn functions_are_those_of_trees_at_run_time() {
             let momenta = tree.momenta(&theta, &omega);
             let derived = compiled.evaluate("canonical_rates", &[&theta, &momenta]);
             let [mut velocities, mut slopes] = [(); 2].map(|()| vec![0.0; n]);
-            tree.canonical_rates(0.0, &theta, &momenta, &mut velocities, &mut slopes);
+            tree.canonical_rates_into(0.0, &theta, &momenta, &mut velocities, &mut slopes);
             let terms = motion.bias_terms.iter().chain(motion.mass_terms.iter());
             let size = terms.fold(0.0, |size: f64, x| size.max(x.abs()));
             for (own, derived) in slopes.iter().zip(&derived[n..]) {

@@ -38,7 +38,7 @@ fn velocities_keep_their_digits_under_strong_forces() {
             let momenta = tree.momenta(&theta, &omega);
             let mut rates = [vec![0.0; n], vec![0.0; n]];
             let [q_rates, p_rates] = &mut rates;
-            tree.canonical_rates(0.3, &theta, &momenta, q_rates, p_rates);
+            tree.canonical_rates_into(0.3, &theta, &momenta, q_rates, p_rates);
             for (found, expected) in q_rates.iter().zip(&omega) {
                 assert!(
                     (found - expected).abs() < 1e-12,
@@ -46,6 +46,40 @@ fn velocities_keep_their_digits_under_strong_forces() {
                 );
             }
             assert!(p_rates.iter().all(|rate| rate.is_finite()));
+        }
+    }
+}
+
+/// Ensembles in lanes move as each tree in absolute angles. The trees differ in a mass.
+#[test]
+fn ensembles_in_lanes_move_as_in_absolute_angles() {
+    let tree = |number: usize| {
+        let tree = PendulumTree::parse(&format!(
+            "gravity = 9.81, a: rod(mass = {}, length = 0.3, friction = 0.02) [
+                b: rod(mass = 0.2, length = 0.4) * 2
+            ], drive(torque = 0.1 * sin(3 * t))",
+            0.5 + 0.1 * number as f64
+        ));
+        tree.unwrap_or_else(|error| panic!("{error}"))
+    };
+    let starts: Vec<State<f64>> = (0..7)
+        .map(|number| State::at_rest(0.0, &[0.1 * f64::from(number), 0.4, -0.3]))
+        .collect();
+    // At rest all momenta are zero.
+    let releases = starts.iter().enumerate();
+    let releases: Vec<_> = releases
+        .map(|(number, start)| (CanonicalVariables(tree(number)), start.clone()))
+        .collect();
+    let method = Dop853::new(Options::with_tolerance(1e-11));
+    let ends = Ensemble::new().integrate_models_in_lanes(&method, &releases, 1.0);
+    for ((number, start), end) in starts.iter().enumerate().zip(ends) {
+        let end = end.unwrap().state;
+        let plain = method.run(&AbsoluteAngles(tree(number)), start, 1.0);
+        let plain = plain.unwrap().state;
+        let momenta = tree(number).momenta(plain.positions(), plain.velocities());
+        let plain = [plain.positions(), &momenta].concat();
+        for (own, plain) in end.values.iter().zip(plain) {
+            assert!((own - plain).abs() < 1e-8, "{own} {plain}");
         }
     }
 }

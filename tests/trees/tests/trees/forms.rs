@@ -14,7 +14,7 @@ fn canonical_rates_are_those_of_the_motion() {
     for tree in [bent(), bent().with("m", 0.3).unwrap()] {
         let momenta = tree.momenta(&THETA, &OMEGA);
         let (mut velocities, mut rates) = ([0.0; 5], [0.0; 5]);
-        tree.canonical_rates(0.7, &THETA, &momenta, &mut velocities, &mut rates);
+        tree.canonical_rates_into(0.7, &THETA, &momenta, &mut velocities, &mut rates);
         for (own, omega) in velocities.iter().zip(OMEGA) {
             near(*own, omega, 1e-11);
         }
@@ -36,7 +36,7 @@ fn canonical_rates_are_those_of_the_motion() {
     }
     let mut answers = [[0.0; 5]; 2];
     let [q_rates, p_rates] = &mut answers;
-    bent().canonical_rates(0.0, &THETA, &[0.0; 4], q_rates, p_rates);
+    bent().canonical_rates_into(0.0, &THETA, &[0.0; 4], q_rates, p_rates);
     assert!(answers.as_flattened().iter().all(|rate| rate.is_nan()));
 }
 

@@ -29,7 +29,7 @@ pub enum Solver {
 /// Gauss–Legendre methods of order 2, 4, 6 and 8 with steps of constant length: symmetric, and
 /// symplectic if the state is canonical.
 ///
-/// If the state consists of coordinates and momenta ([`Canonical`]), the energy of a conservative
+/// If the state consists of coordinates and momenta ([`CanonicalVariables`]), the energy of a conservative
 /// system does not drift: even in a long run its error stays that of one step, plus a random walk
 /// of rounding. If it consists of angles and velocities, the methods are only symmetric, which for
 /// reversible motion does nearly as well.
@@ -58,7 +58,7 @@ pub enum Solver {
 /// sections II.1.3, VI.4 and VIII.6; Hairer, McLachlan, Razakarivony, *Achieving Brouwer's law with
 /// implicit Runge–Kutta methods*, BIT 48 (2008) 231–243.
 ///
-/// [`Canonical`]: crate::system::Canonical
+/// [`CanonicalVariables`]: type@crate::system::CanonicalVariables
 /// [`Ensemble::integrate_in_lanes`]: crate::ensemble::Ensemble::integrate_in_lanes
 /// [`IntegrationError::NotSolved`]: crate::integrate::IntegrationError::NotSolved
 /// [`Projected`]: crate::integrate::Projected

@@ -107,9 +107,13 @@ const TOGETHER: &[(&str, &str, &[&str])] = &[
     ("runtime", "integrate::explicit", &["pair", "stages"]),
     ("runtime", "scalar", &["kind", "lanes"]),
     ("runtime", "scalar::sincos", &["fused", "tail"]),
-    ("runtime", "system", &["function", "fused"]),
-    // A model becomes one on other numbers, which is a pendulum; a pendulum is a model.
-    ("runtime", "system", &["model", "pendulum"]),
+    // A model becomes one on other numbers, which is a pendulum; a pendulum is a model, and calls
+    // the functions that a model has.
+    (
+        "runtime",
+        "system",
+        &["function", "fused", "model", "pendulum"],
+    ),
     // A map of rates looks for tongues, which ask for rates along lines.
     ("runtime/program", "commands::map", &["rates", "tongues"]),
     // A description becomes a tree, which knows it; what a tree computes by one of its parts

@@ -50,7 +50,7 @@ fn energy_is_balanced_in_every_form() {
     let end = method.run(&system, &canonical, 10.0).unwrap();
     let (theta, momenta) = end.state.values.split_at(links);
     let [mut omega, mut rates] = [(); 2].map(|()| vec![0.0; links]);
-    tree.canonical_rates(0.0, theta, momenta, &mut omega, &mut rates);
+    tree.canonical_rates_into(0.0, theta, momenta, &mut omega, &mut rates);
     let moved = State::new(0.0, [theta, &omega].concat());
     assert!(drift(&moved) < 1e-10, "{:e}", drift(&moved));
     let lanes = vec![(AbsoluteAngles(&tree), start.clone()); 5];
