@@ -135,8 +135,8 @@ pub use model::{ParameterError, Transfer, UnknownParameter};
 pub use scalar::Scalar;
 pub use sectors::{Budget, ScaleBudget, Scales, Sectors};
 pub use system::{
-    Energy, Forced, ForcedDifferences, Model, Parametric, Pendulum, Positions, Prescribed,
-    SmallDifferences, SymmetricPendulum, TaylorPendulum, Transverse, WholeTree,
+    Energy, Model, Parametric, Pendulum, Positions, Prescribed, SmallDifferences,
+    SymmetricPendulum, TaylorPendulum, Transverse, WholeTree,
 };
 pub use transfer_forms::{TransferForm, TransferForms};
 

@@ -19,6 +19,6 @@ pub use crate::integrate::{
 pub use crate::model::{ParameterError, Transfer};
 pub use crate::scalar::{Real, Scalar};
 pub use crate::system::{
-    AbsoluteAngles, CanonicalVariables, Energy, FirstIntegral, Forced, Model, Ode, Pendulum,
-    Positions, Prescribed, State, SymmetricCoordinates, SymmetricPendulum,
+    AbsoluteAngles, CanonicalVariables, Energy, FirstIntegral, Model, Ode, Pendulum, Positions,
+    Prescribed, State, SymmetricCoordinates, SymmetricPendulum,
 };

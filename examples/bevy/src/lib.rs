@@ -9,7 +9,7 @@ use bevy_ecs::prelude::{Component, Query, Res};
 use bevy_time::Time;
 use branched_pendulum::integrate::{Frames, longest_sub_step};
 use branched_pendulum::prelude::*;
-use branched_pendulum::system::{Forced, LinkPoint, Positions, UnderTorques};
+use branched_pendulum::system::{LinkPoint, Positions, UnderTorques};
 use branched_pendulum_trees::PendulumTree;
 
 type Equations = UnderTorques<PendulumTree<f32>, Vec<f32>>;

@@ -1,6 +1,6 @@
 //! Mechanics of trees: accelerations, energies, momenta, matrices and positions.
 
-use branched_pendulum::system::{Energy, Forced, LinkPoint, Model, Pendulum as _, Positions};
+use branched_pendulum::system::{Energy, LinkPoint, Model, Pendulum as _, Positions};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 

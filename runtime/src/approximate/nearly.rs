@@ -8,8 +8,8 @@ use super::{Approximation, ForcedApproximation};
 use crate::integrate::{Frames, InputError};
 use crate::scalar::Real;
 use crate::system::{
-    DifferencePatterns, ForcedDifferences, Ode, SmallDifferences, SmallOde, SmallUnderTorques,
-    State,
+    Computes, DifferencePatterns, Ode, SmallDifferences, SmallOde, SmallUnderTorques, State,
+    functions,
 };
 
 /// The motion of a tree whose copies are nearly in phase, computed frame by frame with a model of
@@ -111,7 +111,11 @@ impl<P: SmallDifferences<T> + Clone, T: Real> NearlyInPhase<P, T> {
     }
 }
 
-impl<P: ForcedDifferences<T> + Clone, T: Real> NearlyInPhase<P, T, SmallUnderTorques<P, Vec<T>>> {
+impl<P, T> NearlyInPhase<P, T, SmallUnderTorques<P, Vec<T>>>
+where
+    P: SmallDifferences<T> + Computes<functions::SmallDifferencesUnderTorques, T> + Clone,
+    T: Real,
+{
     /// Creates the motion like [`new`](NearlyInPhase::new) for a model that accepts external
     /// torques; the result is a [`ForcedApproximation`].
     ///
@@ -190,8 +194,10 @@ impl<P: SmallDifferences<T>, T: Real, O: Ode<T>> Approximation<T> for NearlyInPh
     }
 }
 
-impl<P: ForcedDifferences<T>, T: Real> ForcedApproximation<T>
-    for NearlyInPhase<P, T, SmallUnderTorques<P, Vec<T>>>
+impl<P, T> ForcedApproximation<T> for NearlyInPhase<P, T, SmallUnderTorques<P, Vec<T>>>
+where
+    P: SmallDifferences<T> + Computes<functions::SmallDifferencesUnderTorques, T>,
+    T: Real,
 {
     fn step_under(&mut self, state: &mut [T], torques: &[T]) {
         let parts = &mut self.small[..self.patterns.half()];

@@ -7,7 +7,7 @@ use core::fmt;
 use super::{Approximation, ForcedApproximation};
 use crate::integrate::Frames;
 use crate::scalar::Real;
-use crate::system::{Forced, Ode, UnderTorques};
+use crate::system::{Computes, Ode, UnderTorques, functions};
 
 /// A motion, advanced frame by frame, that uses an approximation while its error is small enough,
 /// and the full model otherwise.
@@ -182,7 +182,12 @@ impl<O: Ode<T>, A: Approximation<T>, T: Real> Switched<O, A, T> {
     }
 }
 
-impl<P: Forced<T>, A: ForcedApproximation<T>, T: Real> Switched<UnderTorques<P, Vec<T>>, A, T> {
+impl<P, A, T> Switched<UnderTorques<P, Vec<T>>, A, T>
+where
+    P: Computes<functions::AccelerationsUnderTorques, T>,
+    A: ForcedApproximation<T>,
+    T: Real,
+{
     /// Advances the motion by one frame under torques (N m) on the links that stay constant during
     /// it. Torques of another length than the number of links count as zero.
     pub fn advance_under(&mut self, torques: &[T]) {

@@ -8,7 +8,7 @@ use super::registers::{Applied, FunctionOfStates, ValuesOf};
 use super::{Batch, BatchError};
 use crate::scalar::Lane;
 use crate::simd::dispatch;
-use crate::system::{At, Computes, Forced, Pendulum, SliceCounts, functions};
+use crate::system::{At, Computes, Pendulum, SliceCounts, functions};
 
 impl<P: Pendulum<T>, T: Lane> Batch<'_, P, T> {
     /// Writes the values of a [`state_function!`](crate::state_function) at `time` (s). Each
@@ -83,7 +83,7 @@ impl<P: Pendulum<T>, T: Lane> Batch<'_, P, T> {
         alpha: &mut [impl AsMut<[T]>],
     ) -> Result<(), BatchError>
     where
-        P: Forced<T>,
+        P: Computes<functions::AccelerationsUnderTorques, T>,
     {
         let count = theta.first().map_or(0, |states| states.as_ref().len());
         for (name, argument) in [("theta", theta), ("omega", omega), ("torques", torques)] {

@@ -67,6 +67,98 @@ pub trait Pendulum<T: Scalar>: Model<T> {
         self.accelerations_into(time, theta, omega, alpha);
     }
 
+    /// Writes the angular accelerations (rad/s²) like [`accelerations_into`](Self::accelerations_into), with
+    /// generalized torques Q (N m) in addition to all others: M θ̈ + b = Q. Their power is Q·ω. All
+    /// slices have one number for each [link](Model::links); for other lengths the results
+    /// are NaN. Compiled models have this function if the description has `emit(forces)`.
+    ///
+    /// Q_i is a couple on link i. For the torques of forces on links, see
+    /// [`Positions`](super::Positions). If a link represents several links of a whole tree, its
+    /// torque is the sum of the torques on these:
+    /// [`WholeTree::torques`](super::WholeTree::torques).
+    #[inline]
+    fn accelerations_under_into(
+        &self,
+        time: T,
+        theta: &[T],
+        omega: &[T],
+        torques: &[T],
+        alpha: &mut [T],
+    ) where
+        Self: Computes<functions::AccelerationsUnderTorques, T>,
+    {
+        let workspace = &mut Workspace::new();
+        self.accelerations_under_with(workspace, time, theta, omega, torques, alpha);
+    }
+
+    /// Writes the same accelerations, using memory that the caller keeps, as
+    /// [`accelerations_with`](Self::accelerations_with) does.
+    #[inline]
+    fn accelerations_under_with(
+        &self,
+        workspace: &mut Workspace<T>,
+        time: T,
+        theta: &[T],
+        omega: &[T],
+        torques: &[T],
+        alpha: &mut [T],
+    ) where
+        Self: Computes<functions::AccelerationsUnderTorques, T>,
+    {
+        let given = [theta, omega, torques];
+        Computes::<functions::AccelerationsUnderTorques, T>::compute_with(
+            self,
+            workspace,
+            At::time(time),
+            &given,
+            &mut [alpha],
+        );
+    }
+
+    /// Writes the generalized torques Q (N m) that give the links the angular accelerations `alpha`
+    /// (rad/s²): Q = M θ̈ + b, the inverse of
+    /// [`accelerations_under_into`](Self::accelerations_under_into). All slices have one number for
+    /// each [link](Model::links); for other lengths the results are NaN. Compiled models
+    /// have this function if the description has `emit(inverse_dynamics)`.
+    #[inline]
+    fn inverse_dynamics_into(
+        &self,
+        time: T,
+        theta: &[T],
+        omega: &[T],
+        alpha: &[T],
+        torques: &mut [T],
+    ) where
+        Self: Computes<functions::InverseDynamics, T>,
+    {
+        let workspace = &mut Workspace::new();
+        self.inverse_dynamics_with(workspace, time, theta, omega, alpha, torques);
+    }
+
+    /// Writes the same torques, with a workspace that the caller keeps, as
+    /// [`accelerations_with`](Self::accelerations_with) does.
+    #[inline]
+    fn inverse_dynamics_with(
+        &self,
+        workspace: &mut Workspace<T>,
+        time: T,
+        theta: &[T],
+        omega: &[T],
+        alpha: &[T],
+        torques: &mut [T],
+    ) where
+        Self: Computes<functions::InverseDynamics, T>,
+    {
+        let given = [theta, omega, alpha];
+        Computes::<functions::InverseDynamics, T>::compute_with(
+            self,
+            workspace,
+            At::time(time),
+            &given,
+            &mut [torques],
+        );
+    }
+
     /// Writes the rates of the angles `theta` (rad) and of their `momenta` (kg m²/s) at `time` (s):
     /// Hamilton's equations. All slices have one number for each [link](Model::links); for other
     /// lengths the results are NaN. Compiled models have this function if the description has

@@ -4,7 +4,7 @@ use alloc::vec::Vec;
 use core::fmt;
 
 use super::function::{At, Computes, SliceCounts, compute_in, functions};
-use super::{Action, CastAction, Forced, Motion, Workspace};
+use super::{Action, CastAction, Motion, Pendulum, Workspace};
 use crate::scalar::Scalar;
 
 /// State of a tree with prescribed links: angles, velocities, external torques, and the
@@ -59,7 +59,9 @@ impl<'a, T> PrescribedMotion<'a, T> {
     note = "a model has some with `prescribed(LINK)` in its attribute"
 )]
 pub trait Prescribed<T: Scalar>:
-    Forced<T> + Computes<functions::AccelerationsOfHeldLinks, T>
+    Pendulum<T>
+    + Computes<functions::AccelerationsUnderTorques, T>
+    + Computes<functions::AccelerationsOfHeldLinks, T>
 {
     /// Returns the indices of the links in a set of prescribed links; `None` if there is no set
     /// with that index. Sets are numbered in the order of the description.

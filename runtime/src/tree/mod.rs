@@ -175,7 +175,7 @@ impl<E: LinkEquations, T: Scalar> Tree<E, T> {
     }
 
     /// Writes the angular accelerations under external torques, as
-    /// [`Forced::accelerations_under_with`](crate::Forced::accelerations_under_with). NaN for
+    /// [`Pendulum::accelerations_under_with`](crate::Pendulum::accelerations_under_with). NaN for
     /// equations without external torques ([`LinkEquations::FORCED`]).
     pub fn accelerations_under_with(
         &self,

@@ -140,7 +140,7 @@ fn constant_torques_lead_to_their_equilibrium() {
     }
     let mut alpha = [0.0; 3];
     let (theta, omega) = state.split_at(3);
-    Forced::accelerations_under_into(&model, 0.0, theta, omega, &torques, &mut alpha);
+    Pendulum::accelerations_under_into(&model, 0.0, theta, omega, &torques, &mut alpha);
     assert!(
         size(omega.iter().copied()) < 1e-15 && size(alpha) < 1e-9,
         "{state:?} {alpha:?}"

@@ -10,7 +10,7 @@
 use std::sync::Arc;
 
 use branched_pendulum::ScaleBudget;
-use branched_pendulum::system::{Forced, LinkPoint, Model, Positions, Workspace};
+use branched_pendulum::system::{LinkPoint, Model, Pendulum, Positions, Workspace};
 use branched_pendulum_codegen::scene::Quantity;
 
 use crate::description::TreeDescription;

@@ -1,6 +1,6 @@
 //! The equations of motion, together with the work done on the tree.
 
-use branched_pendulum::system::{Forced, Model, Ode, Pendulum, Workspace};
+use branched_pendulum::system::{Model, Ode, Pendulum, Workspace};
 use branched_pendulum_trees::PendulumTree;
 
 use crate::hand::Hand;

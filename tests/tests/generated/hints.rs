@@ -44,8 +44,8 @@ const MISTAKES: [(&str, &str); 9] = [
         "a model knows it with `emit(positions)` in its attribute",
     ),
     (
-        "fn forced<P: Forced<f64>>(_: P) {} forced(model);",
-        "a model takes them with `emit(forces)` in its attribute",
+        "model.accelerations_under_into(0.0, &[0.1], &[0.0], &[0.0], &mut [0.0]);",
+        "torques from outside are requested by `emit(forces)`",
     ),
     (
         "let _ = flow_jacobian(method, &AbsoluteAngles(model), start, 1.0);",

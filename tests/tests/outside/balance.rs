@@ -1,7 +1,7 @@
 //! Energy against the work of all that acts from outside, in every form of tree.
 
 use branched_pendulum::prelude::*;
-use branched_pendulum::system::{Action, Workspace};
+use branched_pendulum::system::{Action, Computes, Workspace, functions};
 use branched_pendulum_compiler_tests::random::Random;
 
 use super::gusts::Gusts;
@@ -16,7 +16,7 @@ struct WithWork<'m, P, Q, W> {
 
 impl<P, Q, W> Ode<f64> for WithWork<'_, P, Q, W>
 where
-    P: Forced<f64>,
+    P: Pendulum<f64> + Computes<functions::AccelerationsUnderTorques, f64>,
     Q: Action<f64>,
     W: Fn(f64, &[f64], &[f64], &[f64]) -> f64,
 {
@@ -51,7 +51,7 @@ where
 /// Checks that E(2 s) − E(0) is the work, to 1e-10 of the larger of the energies.
 fn energy_closes<P>(model: &P, power: impl Fn(f64, &[f64], &[f64], &[f64]) -> f64)
 where
-    P: Forced<f64> + Positions<f64> + Energy<f64>,
+    P: Positions<f64> + Energy<f64> + Computes<functions::AccelerationsUnderTorques, f64>,
 {
     let links = model.links();
     let energy = |values: &[f64]| {

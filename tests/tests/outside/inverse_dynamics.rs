@@ -136,7 +136,9 @@ fn balances<P>(
     energy: &impl FirstIntegral<f64>,
     powers: impl Fn(f64, &[f64; LINKS], &[f64; LINKS]) -> f64,
 ) where
-    P: Forced<f64> + Computes<functions::InverseDynamics, f64>,
+    P: Pendulum<f64>
+        + Computes<functions::AccelerationsUnderTorques, f64>
+        + Computes<functions::InverseDynamics, f64>,
 {
     for (time, [theta, omega, alpha]) in motions(5) {
         let mut torques = [0.0; LINKS];
@@ -183,7 +185,9 @@ fn the_balance_of_energy_holds() {
 /// The accelerations under the torques are those that were given.
 fn returns<P>(model: &P, tolerance: f64)
 where
-    P: Forced<f64> + Computes<functions::InverseDynamics, f64>,
+    P: Pendulum<f64>
+        + Computes<functions::AccelerationsUnderTorques, f64>
+        + Computes<functions::InverseDynamics, f64>,
 {
     let (links, mut random) = (model.links(), Random::new(6));
     for _ in 0..100 {
@@ -239,7 +243,9 @@ fn all_forms_agree() {
 /// States in a batch have the bits that they have alone.
 fn has_the_bits_of_single_states<P>(model: &P)
 where
-    P: Forced<f64> + Computes<functions::InverseDynamics, f64>,
+    P: Pendulum<f64>
+        + Computes<functions::AccelerationsUnderTorques, f64>
+        + Computes<functions::InverseDynamics, f64>,
 {
     const STATES: usize = 21;
     let (links, mut random) = (model.links(), Random::new(8));

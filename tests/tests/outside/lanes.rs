@@ -60,7 +60,7 @@ struct Written;
 
 fn lanes_meet_the_plain_method<P>(model: impl Fn() -> P)
 where
-    P: Forced<f64> + Sync,
+    P: Pendulum<f64> + Computes<AccelerationsUnderTorques, f64> + Sync,
 {
     let mut random = Random::new(3);
     let releases: Vec<_> = couples(21)
@@ -120,7 +120,7 @@ impl<T: Scalar> CastAction<T> for Ramp<T> {
 /// bit, and so of the order that is measured of these.
 fn fixed_steps_have_the_bits_of_single_states<P>(model: impl Fn() -> P)
 where
-    P: Forced<f64> + Sync,
+    P: Pendulum<f64> + Computes<AccelerationsUnderTorques, f64> + Sync,
 {
     let mut random = Random::new(5);
     let mut start = || State::new(0.25, random.around_zero(2 * model().links(), 0.4));

@@ -1,11 +1,11 @@
 //! Torques from outside on small differences that act back, against the whole tree under
 //! the same torques.
 
+use branched_pendulum::SmallDifferences;
 use branched_pendulum::prelude::*;
 use branched_pendulum::system::{
-    DifferencePatterns, OdeFn, SmallOde, SmallUnderTorques, UnderTorques,
+    Computes, DifferencePatterns, OdeFn, SmallOde, SmallUnderTorques, UnderTorques, functions,
 };
-use branched_pendulum::{ForcedDifferences, SmallDifferences};
 use branched_pendulum_compiler_tests::random::Random;
 
 use super::lanes::couples;
@@ -64,12 +64,16 @@ fn spread(patterns: &DifferencePatterns, values: &[f64]) -> Vec<f64> {
 
 /// Largest errors of the accelerations of angles in phase and of differences, against the
 /// whole tree.
-fn errors<M: ForcedDifferences<f64>, W: Forced<f64>>(
+fn errors<M, W>(
     (model, whole): (&M, &W),
     patterns: &DifferencePatterns,
     state: &[f64],
     torques: &[f64],
-) -> [f64; 2] {
+) -> [f64; 2]
+where
+    M: SmallDifferences<f64> + Computes<functions::SmallDifferencesUnderTorques, f64>,
+    W: Computes<functions::AccelerationsUnderTorques, f64>,
+{
     let half = half(model);
     let pushes = spread(patterns, torques);
     let pushed = SmallUnderTorques::of(model, patterns.torques(&pushes));
@@ -89,11 +93,11 @@ fn errors<M: ForcedDifferences<f64>, W: Forced<f64>>(
 
 /// Orders in the size of the differences, and of the torques on them, with which errors
 /// vanish.
-fn orders<M: ForcedDifferences<f64>, W: Forced<f64>>(
-    models: (&M, &W),
-    patterns: &DifferencePatterns,
-    sizes: [f64; 2],
-) -> [f64; 2] {
+fn orders<M, W>(models: (&M, &W), patterns: &DifferencePatterns, sizes: [f64; 2]) -> [f64; 2]
+where
+    M: SmallDifferences<f64> + Computes<functions::SmallDifferencesUnderTorques, f64>,
+    W: Computes<functions::AccelerationsUnderTorques, f64>,
+{
     let mut random = Random::new(31);
     let half = half(models.0);
     let cases: Vec<[Vec<f64>; 3]> = (0..30)

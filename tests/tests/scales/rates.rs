@@ -3,6 +3,7 @@
 
 use super::*;
 use branched_pendulum::scalar::{Dual, Lanes};
+use branched_pendulum::system::{Computes, functions};
 
 /// Rounding errors of sums over generations.
 const ROUNDING: f64 = 1e-14;
@@ -54,7 +55,7 @@ fn energies_sum_to_that_of_the_tree() {
 /// differentiate.
 fn are_rates<M, D>(model: &M, dual: &D)
 where
-    M: Forced<f64> + Scales<f64>,
+    M: Pendulum<f64> + Computes<functions::AccelerationsUnderTorques, f64> + Scales<f64>,
     D: Scales<Dual<f64, 1>>,
 {
     let mut worst = 0.0_f64;

@@ -6,7 +6,7 @@ use std::time::Instant;
 use branched_pendulum::approximate::{ForcedApproximation, Linear, LinearFrames, Switched};
 use branched_pendulum::integrate::{Frames, InputError, longest_sub_step};
 use branched_pendulum::prelude::*;
-use branched_pendulum::system::UnderTorques;
+use branched_pendulum::system::{Computes, UnderTorques, functions};
 
 use super::scene::{Branch, LINKS};
 use super::weather::Weather;
@@ -101,7 +101,9 @@ trait Mover<T> {
     fn state_into(&self, state: &mut [T]);
 }
 
-impl<T: Real, P: Forced<T>> Mover<T> for (Frames<UnderTorques<P, Vec<T>>, T>, T) {
+impl<T: Real, P: Computes<functions::AccelerationsUnderTorques, T>> Mover<T>
+    for (Frames<UnderTorques<P, Vec<T>>, T>, T)
+{
     fn advance(&mut self, torques: &[T]) {
         let (frames, frame) = self;
         frames.ode_mut().torques_mut().copy_from_slice(torques);
@@ -123,8 +125,11 @@ impl<T: Real> Mover<T> for LinearFrames<T> {
     }
 }
 
-impl<T: Real, P: Forced<T>, A: ForcedApproximation<T>> Mover<T>
-    for Switched<UnderTorques<P, Vec<T>>, A, T>
+impl<T, P, A> Mover<T> for Switched<UnderTorques<P, Vec<T>>, A, T>
+where
+    T: Real,
+    P: Computes<functions::AccelerationsUnderTorques, T>,
+    A: ForcedApproximation<T>,
 {
     fn advance(&mut self, torques: &[T]) {
         self.advance_under(torques);
@@ -207,7 +212,7 @@ impl Course<'_> {
     fn models<T, P>(&self, branch: &P, scalar: &str, all: &mut Vec<Measured>) -> Result<(), Failure>
     where
         T: Real + Send + Sync + std::fmt::Debug + 'static,
-        P: Forced<T> + Positions<T>,
+        P: Positions<T> + Computes<functions::AccelerationsUnderTorques, T>,
     {
         let (linear, frame) = (&self.branches.linear, self.seen.frame);
         let start: Vec<T> = self.seen.states[0]

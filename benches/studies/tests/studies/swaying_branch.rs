@@ -3,7 +3,7 @@
 use branched_pendulum::approximate::Approximation;
 use branched_pendulum::integrate::{Frames, longest_sub_step};
 use branched_pendulum::prelude::*;
-use branched_pendulum::system::UnderTorques;
+use branched_pendulum::system::{Computes, UnderTorques, functions};
 use branched_pendulum_frame::film;
 use branched_pendulum_studies::swaying_branch::motion::{Branches, reference};
 use branched_pendulum_studies::swaying_branch::scene::{Branch, LINKS};
@@ -12,7 +12,7 @@ use branched_pendulum_studies::swaying_branch::weather::Weather;
 
 /// A second from the moment in which the hand lets go, in wind that changes all the
 /// time, at several rates of frames.
-fn second<T: Real, P: Forced<T> + Positions<T>>(
+fn second<T: Real, P: Positions<T> + Computes<functions::AccelerationsUnderTorques, T>>(
     branch: &P,
     sub_step: T,
     start: &[f64],

@@ -2,55 +2,8 @@
 
 use super::{SmallDifferences, differences};
 use crate::scalar::Scalar;
-use crate::system::function::{At, Computes, functions};
-use crate::system::{Forced, Motion, Workspace};
-
-/// A model of [`SmallDifferences`] that accepts external torques: `emit(small)` with
-/// `emit(forces)`.
-///
-/// Generalized torques have the order of the coordinates: first one for each in-phase angle, which
-/// is the sum of the torques on all copies, then one for each difference, Σ e Q with the torques Q
-/// and weights e of the copies;
-/// [`DifferencePatterns::torques`](crate::system::DifferencePatterns::torques) computes both. Their
-/// power is exactly Σ torque · rate. Torques on differences must be as small as the differences:
-/// the errors then have the same order as without torques.
-pub trait ForcedDifferences<T: Scalar>:
-    SmallDifferences<T> + Forced<T> + Computes<functions::SmallDifferencesUnderTorques, T>
-{
-    /// Writes the second time derivatives (rad/s²) of the in-phase angles, then of the differences,
-    /// under torques (N m). Each pair of slices has the values of the in-phase angles, then of the
-    /// differences. NaN for slices of other lengths.
-    #[inline]
-    fn small_accelerations_under_into(
-        &self,
-        time: T,
-        [theta, difference]: [&[T]; 2],
-        [omega, difference_rate]: [&[T]; 2],
-        [torques, on_differences]: [&[T]; 2],
-        accelerations: &mut [T],
-    ) {
-        let given = [
-            theta,
-            omega,
-            difference,
-            difference_rate,
-            torques,
-            on_differences,
-        ];
-        Computes::<functions::SmallDifferencesUnderTorques, T>::compute_with(
-            self,
-            &mut Workspace::new(),
-            At::time(time),
-            &given,
-            &mut [accelerations],
-        );
-    }
-}
-
-impl<T: Scalar, P> ForcedDifferences<T> for P where
-    P: SmallDifferences<T> + Forced<T> + Computes<functions::SmallDifferencesUnderTorques, T>
-{
-}
+use crate::system::Motion;
+use crate::system::function::functions;
 
 /// [`SmallOde`](type@super::SmallOde) under external torques. These are an
 /// [`Action`](crate::system::Action): a function of the time, of the coordinates (angles, then

@@ -2,7 +2,7 @@
 
 mod forced;
 
-pub use forced::{ForcedDifferences, SmallUnderTorques};
+pub use forced::SmallUnderTorques;
 
 use super::by_reference::by_reference;
 use super::function::{At, Computes, functions};
@@ -46,6 +46,45 @@ pub trait SmallDifferences<T: Scalar>:
     ) {
         let given = [theta, omega, difference, difference_rate];
         Computes::<functions::SmallDifferences, T>::compute_with(
+            self,
+            &mut Workspace::new(),
+            At::time(time),
+            &given,
+            &mut [accelerations],
+        );
+    }
+
+    /// Writes the second time derivatives (rad/s²) of the in-phase angles, then of the differences,
+    /// under torques (N m). Each pair of slices has the values of the in-phase angles, then of the
+    /// differences. NaN for slices of other lengths. Compiled models have this function if the
+    /// description has `emit(small)` and `emit(forces)`.
+    ///
+    /// Generalized torques have the order of the coordinates: first one for each in-phase angle, which
+    /// is the sum of the torques on all copies, then one for each difference, Σ e Q with the torques Q
+    /// and weights e of the copies;
+    /// [`DifferencePatterns::torques`](crate::system::DifferencePatterns::torques) computes both. Their
+    /// power is exactly Σ torque · rate. Torques on differences must be as small as the differences:
+    /// the errors then have the same order as without torques.
+    #[inline]
+    fn small_accelerations_under_into(
+        &self,
+        time: T,
+        [theta, difference]: [&[T]; 2],
+        [omega, difference_rate]: [&[T]; 2],
+        [torques, on_differences]: [&[T]; 2],
+        accelerations: &mut [T],
+    ) where
+        Self: Computes<functions::SmallDifferencesUnderTorques, T>,
+    {
+        let given = [
+            theta,
+            omega,
+            difference,
+            difference_rate,
+            torques,
+            on_differences,
+        ];
+        Computes::<functions::SmallDifferencesUnderTorques, T>::compute_with(
             self,
             &mut Workspace::new(),
             At::time(time),

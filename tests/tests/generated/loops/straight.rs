@@ -34,7 +34,7 @@ macro_rules! strung {
 }
 
 /// A model with dampers along lines.
-trait Strung: Energy<f64> + Forced<f64> + Prescribed<f64> {
+trait Strung: Energy<f64> + Prescribed<f64> {
     fn loss(&self, theta: &[f64], omega: &[f64]) -> f64;
 }
 

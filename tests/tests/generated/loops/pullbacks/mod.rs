@@ -7,7 +7,7 @@ use branched_pendulum::Parametric;
 use branched_pendulum::prelude::*;
 use branched_pendulum::scalar::{Double, Dual, Real, Scalar};
 use branched_pendulum::system::functions::AccelerationsUnderTorquesPullback as Under;
-use branched_pendulum::system::{At, Computes, Model, Workspace};
+use branched_pendulum::system::{At, Computes, Model, Workspace, functions};
 use branched_pendulum_compiler_tests::random::Random;
 use branched_pendulum_trees::TreeDescription;
 
@@ -189,7 +189,7 @@ fn against_tangents<P>(random: &mut Random, states: usize) -> f64
 where
     P: Parametric<f64>,
     On<P, Double>: Computes<Under, Double>,
-    On<P, Tangent>: Forced<Tangent>,
+    On<P, Tangent>: Computes<functions::AccelerationsUnderTorques, Tangent>,
 {
     let parameters = P::PARAMETERS.len();
     let mut worst = 0.0_f64;

@@ -8,7 +8,7 @@ mod series;
 
 use branched_pendulum::prelude::*;
 use branched_pendulum::scalar::{Double, Dual, Scalar};
-use branched_pendulum::system::{Forced, Workspace};
+use branched_pendulum::system::Workspace;
 use branched_pendulum_trees::PendulumTree;
 
 use super::plain::Numbers;
