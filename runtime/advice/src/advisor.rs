@@ -14,7 +14,6 @@ use crate::report::Advice;
 use crate::search::bracket;
 use crate::truth::{Exact, Truth};
 use crate::wanted::Wanted;
-use branched_pendulum::scalar::Double;
 use branched_pendulum::system::{CastOde, State};
 
 /// A scene with its starts, its end, the outputs that must be right, and an optional time limit.
@@ -44,7 +43,7 @@ const SHORT: f64 = 0.02;
 impl<'a> Advisor<'a> {
     /// Creates an advisor for a scene. `exact` are its exact equations of motion: the complete
     /// model in its own coordinates.
-    pub fn new<O: CastOde<f64, Double>>(exact: &'a O) -> Self {
+    pub fn new<O: CastOde<f64>>(exact: &'a O) -> Self {
         Self {
             exact,
             starts: Vec::new(),

@@ -10,9 +10,7 @@ use crate::integrated::{
 };
 use branched_pendulum::integrate::{Method, Options, Taylor};
 use branched_pendulum::scalar::Real;
-use branched_pendulum::system::{
-    AbsoluteAngles, CastOde, LaneOde, RatesOnly, TaylorOde, TaylorPendulum,
-};
+use branched_pendulum::system::{AbsoluteAngles, CastOde, RatesOnly, TaylorOde, TaylorPendulum};
 
 /// Candidates among which [`Advisor::advise`](super::Advisor::advise) chooses.
 #[derive(Default)]
@@ -62,8 +60,8 @@ impl<'a> Candidates<'a> {
     #[must_use]
     pub fn rates<O>(self, form: &ModelForm<'a>, ode: O) -> Self
     where
-        O: CastOde<f64, f32> + 'a,
-        O::Of: 'a,
+        O: CastOde<f64> + 'a,
+        O::Of<f32>: 'a,
     {
         let single = ode.cast(|value: f64| value as f32);
         let known = |method: Method| method != Method::Taylor;
@@ -80,8 +78,8 @@ impl<'a> Candidates<'a> {
     #[must_use]
     pub fn series<O>(self, form: &ModelForm<'a>, ode: O) -> Self
     where
-        O: CastOde<f64, f32> + TaylorOde<f64> + 'a,
-        O::Of: TaylorOde<f32> + 'a,
+        O: CastOde<f64> + TaylorOde<f64> + 'a,
+        O::Of<f32>: TaylorOde<f32> + 'a,
     {
         let single = ode.cast(|value: f64| value as f32);
         self.integrated::<f64>(
@@ -105,8 +103,8 @@ impl<'a> Candidates<'a> {
     #[must_use]
     pub fn lanes<O>(self, form: &ModelForm<'a>, ode: O) -> Self
     where
-        O: LaneOde<f64> + CastOde<f64, f32> + Sync + 'a,
-        <O as CastOde<f64, f32>>::Of: LaneOde<f32> + Sync + 'a,
+        O: CastOde<f64> + Sync + 'a,
+        O::Of<f32>: CastOde<f32> + Sync + 'a,
     {
         let single = ode.cast(|value: f64| value as f32);
         let known = |method: Method| method.is_adaptive() && method != Method::Taylor;

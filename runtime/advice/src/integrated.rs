@@ -12,7 +12,7 @@ use branched_pendulum::integrate::{
     Dop853, Dopri5, Integrator, LaneMethod, Method, Options, Verner98,
 };
 use branched_pendulum::scalar::{Lane, Real};
-use branched_pendulum::system::{LaneOde, State, TaylorOde};
+use branched_pendulum::system::{CastOde, State, TaylorOde};
 
 /// Starts of a model, with the setting and the sample times of a run.
 pub(crate) struct Following<'r, T> {
@@ -63,7 +63,7 @@ pub(crate) fn one_by_one<T: Real>(
 
 /// Integrates several starts at once in the lanes of vector registers, on one thread, so that the
 /// cost on one core is measured.
-pub(crate) fn in_lanes<T: Lane, O: LaneOde<T> + Sync>(
+pub(crate) fn in_lanes<T: Lane, O: CastOde<T> + Sync>(
     method: &impl LaneMethod<O, T>,
     system: &O,
     following: &Following<'_, T>,
@@ -82,7 +82,7 @@ pub(crate) fn in_lanes<T: Lane, O: LaneOde<T> + Sync>(
 }
 
 /// Integrates several starts at once by an explicit pair; returns an error for any other method.
-pub(crate) fn in_lanes_by_pair<T: Lane, O: LaneOde<T> + Sync>(
+pub(crate) fn in_lanes_by_pair<T: Lane, O: CastOde<T> + Sync>(
     system: &O,
     following: &Following<'_, T>,
     visit: &mut VisitModel<'_, T>,

@@ -54,7 +54,7 @@ pub(crate) trait Exact {
     ) -> Result<(), Box<dyn Error + Send + Sync>>;
 }
 
-impl<O: CastOde<f64, Double>> Exact for O {
+impl<O: CastOde<f64>> Exact for O {
     fn dimension(&self) -> usize {
         Ode::dimension(self)
     }

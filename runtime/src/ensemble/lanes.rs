@@ -6,14 +6,14 @@ use super::Ensemble;
 use crate::integrate::lanes::{self, Cases, Outcome, Task};
 use crate::integrate::{Ending, IntegrationError, LaneMethod, Solution};
 use crate::scalar::{InstructionSet, Lane};
-use crate::system::{LaneOde, State};
+use crate::system::{CastOde, State};
 
 impl Ensemble<'_> {
     /// Integrates a system from every start to the time `end`. Each thread integrates as many
     /// trajectories at once as the machine's widest vector registers have lanes: eight in `f64`
     /// with AVX-512.
     ///
-    /// The system is any [`LaneOde`]: a model in [`AbsoluteAngles`](crate::system::AbsoluteAngles),
+    /// The system is any [`CastOde`]: a model in [`AbsoluteAngles`](crate::system::AbsoluteAngles),
     /// with external torques ([`UnderTorques`](crate::system::UnderTorques)), or with the small
     /// differences between its copies ([`TransverseOde`](crate::system::TransverseOde)). The method
     /// is [`Dop853`](crate::integrate::Dop853), [`Dopri5`](crate::integrate::Dopri5),
@@ -68,7 +68,7 @@ impl Ensemble<'_> {
     ) -> Vec<Result<Solution<T>, IntegrationError<T>>>
     where
         T: Lane,
-        O: LaneOde<T> + Sync,
+        O: CastOde<T> + Sync,
         M: LaneMethod<O, T>,
     {
         self.ends(method, Cases::Starts(system, starts), end, &[])
@@ -124,7 +124,7 @@ impl Ensemble<'_> {
     ) -> Vec<Result<Solution<T>, IntegrationError<T>>>
     where
         T: Lane,
-        O: LaneOde<T> + Sync,
+        O: CastOde<T> + Sync,
         M: LaneMethod<O, T>,
     {
         self.ends(method, Cases::Starts(system, starts), end, endings)
@@ -140,7 +140,7 @@ impl Ensemble<'_> {
     /// the same number of starts of one system, plus copying the constants of the next system into
     /// a lane.
     ///
-    /// The systems have one type and differ only in the constants that [`LaneOde::on_scalar`]
+    /// The systems have one type and differ only in the constants that [`CastOde::cast`]
     /// converts.
     ///
     /// # Examples
@@ -178,7 +178,7 @@ impl Ensemble<'_> {
     ) -> Vec<Result<Solution<T>, IntegrationError<T>>>
     where
         T: Lane,
-        O: LaneOde<T> + Sync,
+        O: CastOde<T> + Sync,
         M: LaneMethod<O, T>,
     {
         self.ends(method, Cases::Pairs(releases), end, &[])
@@ -197,7 +197,7 @@ impl Ensemble<'_> {
     ) -> Vec<Result<Solution<T>, IntegrationError<T>>>
     where
         T: Lane,
-        O: LaneOde<T> + Sync,
+        O: CastOde<T> + Sync,
         M: LaneMethod<O, T>,
     {
         self.ends(method, Cases::Pairs(releases), end, endings)
@@ -243,7 +243,7 @@ impl Ensemble<'_> {
     ) -> Vec<Samples<T>>
     where
         T: Lane,
-        O: LaneOde<T> + Sync,
+        O: CastOde<T> + Sync,
         M: LaneMethod<O, T>,
     {
         self.samples(method, Cases::Starts(system, starts), times)
@@ -260,7 +260,7 @@ impl Ensemble<'_> {
     ) -> Vec<Samples<T>>
     where
         T: Lane,
-        O: LaneOde<T> + Sync,
+        O: CastOde<T> + Sync,
         M: LaneMethod<O, T>,
     {
         self.samples(method, Cases::Pairs(releases), times)
@@ -277,7 +277,7 @@ impl Ensemble<'_> {
     ) -> Vec<Samples<T>>
     where
         T: Lane,
-        O: LaneOde<T> + Sync,
+        O: CastOde<T> + Sync,
         M: LaneMethod<O, T>,
     {
         self.samples(method, Cases::Timed(releases, times), &[])
@@ -292,7 +292,7 @@ impl Ensemble<'_> {
     ) -> Vec<Result<Solution<T>, IntegrationError<T>>>
     where
         T: Lane,
-        O: LaneOde<T> + Sync,
+        O: CastOde<T> + Sync,
         M: LaneMethod<O, T>,
     {
         let outcomes = self.in_lanes(method, cases, &[], Some(end), endings);
@@ -302,7 +302,7 @@ impl Ensemble<'_> {
     fn samples<T, O, M>(&self, method: &M, cases: Cases<'_, O, T>, times: &[T]) -> Vec<Samples<T>>
     where
         T: Lane,
-        O: LaneOde<T> + Sync,
+        O: CastOde<T> + Sync,
         M: LaneMethod<O, T>,
     {
         let dimension = cases.get(0).map_or(0, |(system, _)| system.dimension());
@@ -328,7 +328,7 @@ impl Ensemble<'_> {
     ) -> impl Iterator<Item = Outcome<T>> + use<T, O, M>
     where
         T: Lane,
-        O: LaneOde<T> + Sync,
+        O: CastOde<T> + Sync,
         M: LaneMethod<O, T>,
     {
         let task = Task {

@@ -59,9 +59,9 @@ pub trait Action<T> {
 /// }
 ///
 /// impl<T: Scalar> CastAction<T> for Wind<T> {
-///     type On<S: Scalar> = Wind<S>;
+///     type Of<S: Scalar> = Wind<S>;
 ///
-///     fn on<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Wind<S> {
+///     fn cast<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Wind<S> {
 ///         Wind { twig: self.twig.cast(&convert), speed: convert(self.speed) }
 ///     }
 /// }
@@ -79,11 +79,11 @@ pub trait Action<T> {
 /// ```
 pub trait CastAction<T: Scalar>: Action<T> {
     /// Action with constants of the scalar type `S`.
-    type On<S: Scalar>: Action<S>;
+    type Of<S: Scalar>: Action<S>;
 
     /// Returns the action with each constant converted by `convert`, as in
     /// [`Model::cast`](super::Model::cast).
-    fn on<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Self::On<S>;
+    fn cast<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Self::Of<S>;
 }
 
 impl<T, F: Fn(T, &[T], &[T], &mut [T])> Action<T> for F {
@@ -114,9 +114,9 @@ impl<T> Action<T> for Free {
 }
 
 impl<T: Scalar> CastAction<T> for Free {
-    type On<S: Scalar> = Self;
+    type Of<S: Scalar> = Self;
 
-    fn on<S: Scalar>(&self, _: impl Fn(T) -> S) -> Self {
+    fn cast<S: Scalar>(&self, _: impl Fn(T) -> S) -> Self {
         Self
     }
 }

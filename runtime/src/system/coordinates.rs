@@ -4,7 +4,7 @@ use super::function::{At, Computes, functions};
 use super::model::twice;
 use super::ode::halves;
 use super::pendulum::put;
-use super::{CastOde, Free, LaneOde, Model, Motion, Ode, Pendulum, Workspace};
+use super::{CastOde, Free, Model, Motion, Ode, Pendulum, Workspace};
 use crate::scalar::{Scalar, at};
 
 /// A pendulum as a first-order system in absolute angles: the state is the angles followed by the
@@ -81,25 +81,18 @@ pub const fn SymmetricCoordinates<P>(pendulum: P) -> SymmetricCoordinates<P> {
     Motion::new_of(pendulum, 0, 0, Free)
 }
 
-impl<T: Scalar, S: Scalar, P: Pendulum<T>> CastOde<T, S> for AbsoluteAngles<P> {
-    type Of = AbsoluteAngles<P::Of<S>>;
-
-    fn cast(&self, convert: impl Fn(T) -> S) -> Self::Of {
-        AbsoluteAngles(self.0.cast(convert))
-    }
-}
-
-impl<T: Scalar, P: Pendulum<T>> LaneOde<T> for AbsoluteAngles<P> {
-    type Of<S: Scalar> = P::Of<S>;
+impl<T: Scalar, P: Pendulum<T>> CastOde<T> for AbsoluteAngles<P> {
+    type Of<S: Scalar> = AbsoluteAngles<P::Of<S>>;
 
     const DIMENSION: Option<usize> = twice(P::KNOWN_LINKS);
 
-    fn on_scalar<S: Scalar>(&self, convert: impl Fn(T) -> S) -> P::Of<S> {
-        self.0.cast(convert)
+    fn cast<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Self::Of<S> {
+        AbsoluteAngles(self.0.cast(convert))
     }
 
     #[inline(always)]
-    fn rates_of<S: Scalar>(pendulum: &P::Of<S>, time: S, state: &[S], rates: &mut [S]) {
+    fn rates_of<S: Scalar>(system: &Self::Of<S>, time: S, state: &[S], rates: &mut [S]) {
+        let pendulum = &system.0;
         // Uses the number that the compiler knows, if it does.
         let links = pendulum.links();
         let (Some(state), Some(rates)) = (state.get(..2 * links), rates.get_mut(..2 * links))

@@ -6,7 +6,7 @@ use core::marker::PhantomData;
 use super::function::{At, Computes, MotionKind, SliceCounts, compute_in};
 use super::model::twice;
 use super::ode::halves;
-use super::{Action, CastAction, CastOde, LaneOde, Model, Ode, Workspace, prescribed};
+use super::{Action, CastAction, CastOde, Model, Ode, Workspace, prescribed};
 use crate::scalar::Scalar;
 
 /// Motion of a model `M` as a first-order system. `F` is the function that computes the rates, `A`
@@ -185,19 +185,19 @@ where
     }
 }
 
-impl<T, M, F, A> LaneOde<T> for Motion<M, F, A>
+impl<T, M, F, A> CastOde<T> for Motion<M, F, A>
 where
     T: Scalar,
     F: SliceCounts,
     M: Computes<F, T>,
     A: CastAction<T>,
 {
-    type Of<S: Scalar> = Motion<M::On<S>, F, A::On<S>>;
+    type Of<S: Scalar> = Motion<M::On<S>, F, A::Of<S>>;
 
     const DIMENSION: Option<usize> = twice(M::COORDINATES);
 
-    fn on_scalar<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Self::Of<S> {
-        let (model, action) = (self.model.on(&convert), self.action.on(&convert));
+    fn cast<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Self::Of<S> {
+        let (model, action) = (self.model.on(&convert), self.action.cast(&convert));
         Motion::new_of(model, self.index, self.differences, action)
     }
 
@@ -209,20 +209,5 @@ where
     // The links of a prescribed set in lane 0 are those of all lanes.
     fn shape(&self) -> usize {
         self.model.shape().wrapping_add(self.index)
-    }
-}
-
-impl<T, S, M, F, A> CastOde<T, S> for Motion<M, F, A>
-where
-    T: Scalar,
-    S: Scalar,
-    F: SliceCounts,
-    M: Computes<F, T>,
-    A: CastAction<T>,
-{
-    type Of = Motion<M::On<S>, F, A::On<S>>;
-
-    fn cast(&self, convert: impl Fn(T) -> S) -> Self::Of {
-        self.on_scalar(convert)
     }
 }

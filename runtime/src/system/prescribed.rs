@@ -180,12 +180,12 @@ impl<T, C: Action<T>> Action<T> for Courses<C> {
 }
 
 impl<T: Scalar, C: CastAction<T>> CastAction<T> for Courses<C> {
-    type On<S: Scalar> = Courses<C::On<S>>;
+    type Of<S: Scalar> = Courses<C::Of<S>>;
 
-    fn on<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Self::On<S> {
+    fn cast<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Self::Of<S> {
         Courses {
             links: self.links.clone(),
-            course: self.course.on(convert),
+            course: self.course.cast(convert),
         }
     }
 }

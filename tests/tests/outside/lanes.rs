@@ -4,7 +4,7 @@ use branched_pendulum::prelude::*;
 use branched_pendulum::state_function;
 use branched_pendulum::system::functions::AccelerationsUnderTorques;
 use branched_pendulum::system::{
-    Action, At, CastAction, Computes, LaneOde, TransverseOde, UnderTorques,
+    Action, At, CastAction, CastOde, Computes, TransverseOde, UnderTorques,
 };
 use branched_pendulum_compiler_tests::random::Random;
 
@@ -29,9 +29,9 @@ impl<T: Scalar> Action<T> for Couples<T> {
 }
 
 impl<T: Scalar> CastAction<T> for Couples<T> {
-    type On<S: Scalar> = Couples<S>;
+    type Of<S: Scalar> = Couples<S>;
 
-    fn on<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Couples<S> {
+    fn cast<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Couples<S> {
         Couples {
             size: convert(self.size),
             phase: convert(self.phase),
@@ -109,9 +109,9 @@ impl<T: Scalar> Action<T> for Ramp<T> {
 }
 
 impl<T: Scalar> CastAction<T> for Ramp<T> {
-    type On<S: Scalar> = Ramp<S>;
+    type Of<S: Scalar> = Ramp<S>;
 
-    fn on<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Ramp<S> {
+    fn cast<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Ramp<S> {
         Ramp(convert(self.0))
     }
 }
@@ -168,42 +168,38 @@ struct WithWork<T> {
 
 const LINKS: usize = ByGeneration::LINKS;
 
-impl Ode<f64> for WithWork<f64> {
+impl<T: Scalar> Ode<T> for WithWork<T> {
     fn dimension(&self) -> usize {
         2 * LINKS + 1
     }
 
-    fn rates(&self, time: f64, state: &[f64], rates: &mut [f64]) {
-        Self::rates_of(self, time, state, rates);
-    }
-}
-
-impl LaneOde<f64> for WithWork<f64> {
-    type Of<S: Scalar> = WithWork<S>;
-
-    fn on_scalar<S: Scalar>(&self, convert: impl Fn(f64) -> S) -> WithWork<S> {
-        WithWork {
-            model: self.model.cast(&convert),
-            couples: self.couples.on(&convert),
-        }
-    }
-
     #[inline(always)]
-    fn rates_of<S: Scalar>(system: &WithWork<S>, time: S, state: &[S], rates: &mut [S]) {
+    fn rates(&self, time: T, state: &[T], rates: &mut [T]) {
         let (theta, omega) = (&state[..LINKS], &state[LINKS..2 * LINKS]);
-        let mut torques = [S::from_f64(0.0); LINKS];
-        system.couples.act(time, theta, omega, &mut torques);
+        let mut torques = [T::from_f64(0.0); LINKS];
+        self.couples.act(time, theta, omega, &mut torques);
         rates[..LINKS].copy_from_slice(omega);
         let alpha = &mut rates[LINKS..2 * LINKS];
         let given = [theta, omega, &torques];
-        Computes::<AccelerationsUnderTorques, S>::compute(
-            &system.model,
+        Computes::<AccelerationsUnderTorques, T>::compute(
+            &self.model,
             At::time(time),
             &given,
             &mut [alpha],
         );
-        let outside = system.model.outside_power(omega, &torques);
-        rates[2 * LINKS] = outside + system.model.friction_power(omega);
+        let outside = self.model.outside_power(omega, &torques);
+        rates[2 * LINKS] = outside + self.model.friction_power(omega);
+    }
+}
+
+impl<T: Scalar> CastOde<T> for WithWork<T> {
+    type Of<S: Scalar> = WithWork<S>;
+
+    fn cast<S: Scalar>(&self, convert: impl Fn(T) -> S) -> WithWork<S> {
+        WithWork {
+            model: self.model.cast(&convert),
+            couples: self.couples.cast(&convert),
+        }
     }
 }
 

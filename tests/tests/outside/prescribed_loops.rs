@@ -187,9 +187,9 @@ impl<T: Scalar> Action<T> for Hands<T> {
 }
 
 impl<T: Scalar> CastAction<T> for Hands<T> {
-    type On<S: Scalar> = Hands<S>;
+    type Of<S: Scalar> = Hands<S>;
 
-    fn on<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Hands<S> {
+    fn cast<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Hands<S> {
         Hands {
             width: convert(self.width),
             pace: convert(self.pace),

@@ -16,7 +16,7 @@ use std::num::NonZeroUsize;
 
 use branched_pendulum::integrate::LaneMethod;
 use branched_pendulum::prelude::*;
-use branched_pendulum::system::{LaneOde, TransverseOde};
+use branched_pendulum::system::{CastOde, TransverseOde};
 use branched_pendulum::{Pendulum, Transverse};
 use branched_pendulum_studies::scenes::BranchedDouble;
 use branched_pendulum_timing::{Contender, compared, least};
@@ -166,7 +166,7 @@ impl Setting {
 
     fn by_pairs<O>(self, system: &O, starts: &[State<f64>]) -> Vec<Option<State<f64>>>
     where
-        O: LaneOde<f64> + Sync,
+        O: CastOde<f64> + Sync,
     {
         match self.order {
             Order::Nine => ends(&Verner98::new(self.options()), system, starts),
@@ -178,7 +178,7 @@ impl Setting {
 fn ends<M, O>(method: &M, system: &O, starts: &[State<f64>]) -> Vec<Option<State<f64>>>
 where
     M: LaneMethod<O, f64>,
-    O: LaneOde<f64> + Sync,
+    O: CastOde<f64> + Sync,
 {
     let ensemble = Ensemble::new().threads(NonZeroUsize::MIN);
     let ends = ensemble.integrate_in_lanes(method, system, starts, 10.0);

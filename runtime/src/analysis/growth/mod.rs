@@ -30,7 +30,7 @@ pub use self::transverse::{TransverseSystem, frequency_at_rest};
 use super::variational::{Linearised, Variational};
 use crate::ensemble::Ensemble;
 use crate::integrate::{Dop853, Integrator, Options};
-use crate::system::{LaneOde, Ode, State};
+use crate::system::{CastOde, Ode, State};
 
 /// Settings for computing the growth of differences.
 ///
@@ -127,7 +127,7 @@ impl Growth {
         releases: &[(O, State<f64>)],
     ) -> Vec<Result<Grown, GrowthError>>
     where
-        O: TransverseSystem + LaneOde<f64> + Sync,
+        O: TransverseSystem + CastOde<f64> + Sync,
     {
         let frequencies_hz = vec![self.frequency_hz; releases.len()];
         self.in_lanes_by_frequency(ensemble, releases, &frequencies_hz)
@@ -148,7 +148,7 @@ impl Growth {
         frequencies_hz: &[f64],
     ) -> Vec<Result<Grown, GrowthError>>
     where
-        O: TransverseSystem + LaneOde<f64> + Sync,
+        O: TransverseSystem + CastOde<f64> + Sync,
     {
         let start = releases.first().map_or(0.0, |(_, start)| start.time);
         let frequencies = frequencies_hz.iter().copied();

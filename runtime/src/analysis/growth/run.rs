@@ -8,7 +8,7 @@ use super::error::GrowthError;
 use super::record::GrowthRecord;
 use crate::ensemble::Ensemble;
 use crate::integrate::Dop853;
-use crate::system::{LaneOde, State};
+use crate::system::{CastOde, State};
 
 /// Index ranges of the differences and their rates in a state.
 #[derive(Clone, Debug)]
@@ -51,7 +51,7 @@ pub(super) fn follow_in_lanes<O>(
     looks: &[Arc<[f64]>],
     runs: &mut [Result<GrowthRun, GrowthError>],
 ) where
-    O: LaneOde<f64> + Sync,
+    O: CastOde<f64> + Sync,
 {
     for number in 0.. {
         // For each run without an error, the times until differences are scaled back.

@@ -115,10 +115,10 @@ impl<D: Scalar> TangentMemory<D> {
 /// assert!(horizon.is_some());
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-pub fn linearised<T: Scalar, O: CastOde<T, Dual<T, 1>>>(
+pub fn linearised<T: Scalar, O: CastOde<T>>(
     ode: O,
-) -> ByTangents<O, Dual<T, 1>, O::Of> {
-    let tangents = ode.cast(Dual::constant);
+) -> ByTangents<O, Dual<T, 1>, O::Of<Dual<T, 1>>> {
+    let tangents = ode.cast(Dual::<T, 1>::constant);
     ByTangents::of_both(ode, tangents)
 }
 

@@ -109,7 +109,7 @@ pub enum InputError<T> {
         found: usize,
     },
     /// A system of an ensemble in lanes differs from the first one in more than its constants; see
-    /// [`LaneOde::shape`](crate::system::LaneOde::shape).
+    /// [`CastOde::shape`](crate::system::CastOde::shape).
     Shape,
     /// The equations have another number of parameters than the one given, by which derivatives are
     /// requested.

@@ -22,9 +22,9 @@ use crate::integrate::right_hand_side::{RightHandSide, StepSpan};
 use crate::integrate::steps::{Failure, StepLimits};
 use crate::scalar::Lane;
 use crate::simd::Simd;
-use crate::system::{LaneOde, State};
+use crate::system::{CastOde, State};
 
-impl<M: EmbeddedPair, O: LaneOde<T>, T: Lane> LaneMethod<O, T> for ExplicitRungeKutta<M, T> {
+impl<M: EmbeddedPair, O: CastOde<T>, T: Lane> LaneMethod<O, T> for ExplicitRungeKutta<M, T> {
     type Steps<R: Simd<T>> = PairInLanes<M, O, T, R>;
 
     fn check(&self, dimension: usize) -> Result<(), InputError<T>> {
@@ -54,13 +54,13 @@ impl<M: EmbeddedPair, O: LaneOde<T>, T: Lane> LaneMethod<O, T> for ExplicitRunge
 }
 
 /// The systems of all lanes, with the smallest divisor that scaled errors need.
-struct Systems<O: LaneOde<T>, T: Lane, R: Simd<T>> {
+struct Systems<O: CastOde<T>, T: Lane, R: Simd<T>> {
     lanes: LaneSystems<O, T, R>,
     /// Smallest positive divisor; it avoids 0/0 for components that are exactly zero.
     smallest: R,
 }
 
-impl<O: LaneOde<T>, T: Lane, R: Simd<T>> RightHandSide<R> for Systems<O, T, R> {
+impl<O: CastOde<T>, T: Lane, R: Simd<T>> RightHandSide<R> for Systems<O, T, R> {
     type Failure = Infallible;
 
     #[inline(always)]
@@ -85,7 +85,7 @@ impl<O: LaneOde<T>, T: Lane, R: Simd<T>> RightHandSide<R> for Systems<O, T, R> {
     }
 }
 
-impl<O: LaneOde<T>, T: Lane, R: Simd<T>> ErrorScale<R> for Systems<O, T, R> {
+impl<O: CastOde<T>, T: Lane, R: Simd<T>> ErrorScale<R> for Systems<O, T, R> {
     type Accepted = R::Mask;
 
     #[inline(always)]
@@ -109,7 +109,7 @@ impl<O: LaneOde<T>, T: Lane, R: Simd<T>> ErrorScale<R> for Systems<O, T, R> {
 }
 
 /// Data of an explicit pair during a run with one trajectory in each lane.
-pub struct PairInLanes<M, O: LaneOde<T>, T: Lane, R: Simd<T>> {
+pub struct PairInLanes<M, O: CastOde<T>, T: Lane, R: Simd<T>> {
     system: Systems<O, T, R>,
     limits: StepLimits<T>,
     stages: StepStages<R>,
@@ -121,7 +121,7 @@ pub struct PairInLanes<M, O: LaneOde<T>, T: Lane, R: Simd<T>> {
     pair: PhantomData<M>,
 }
 
-impl<M: EmbeddedPair, O: LaneOde<T>, T: Lane, R: Simd<T>> LaneSteps<T, R>
+impl<M: EmbeddedPair, O: CastOde<T>, T: Lane, R: Simd<T>> LaneSteps<T, R>
     for PairInLanes<M, O, T, R>
 {
     type System = O;
@@ -215,7 +215,7 @@ impl<M: EmbeddedPair, O: LaneOde<T>, T: Lane, R: Simd<T>> LaneSteps<T, R>
     }
 }
 
-impl<M: EmbeddedPair, O: LaneOde<T>, T: Lane, R: Simd<T>> PairInLanes<M, O, T, R> {
+impl<M: EmbeddedPair, O: CastOde<T>, T: Lane, R: Simd<T>> PairInLanes<M, O, T, R> {
     /// Accepts or rejects the step of a lane, as the driver of single trajectories does, and
     /// chooses the next step. Returns true if the step is accepted.
     #[inline(always)]

@@ -12,11 +12,11 @@ use crate::integrate::right_hand_side::StepSpan;
 use crate::integrate::steps::Failure;
 use crate::scalar::Lane;
 use crate::simd::Simd;
-use crate::system::LaneOde;
+use crate::system::CastOde;
 
 /// A method that integrates systems of the type `O` in the lanes of vector registers, for
 /// [`Ensemble`](crate::ensemble::Ensemble). The explicit Runge–Kutta pairs ([`Dop853`], [`Dopri5`],
-/// [`Verner98`]), [`Rk4`] and [`Gauss`] integrate any [`LaneOde`]; [`Taylor`] integrates models in
+/// [`Verner98`]), [`Rk4`] and [`Gauss`] integrate any [`CastOde`]; [`Taylor`] integrates models in
 /// absolute angles that provide their Taylor coefficients.
 ///
 /// Other crates cannot implement this trait.
@@ -29,10 +29,10 @@ use crate::system::LaneOde;
 /// [`Verner98`]: crate::integrate::Verner98
 #[diagnostic::on_unimplemented(
     message = "`{Self}` does not integrate `{O}` in lanes",
-    note = "in lanes go `Dop853`, `Verner98`, `Dopri5`, `Rk4` and `Gauss`, with any `LaneOde`, and `Taylor`, with `AbsoluteAngles` of models that say `emit(taylor)`",
+    note = "in lanes go `Dop853`, `Verner98`, `Dopri5`, `Rk4` and `Gauss`, with any `CastOde`, and `Taylor`, with `AbsoluteAngles` of models that say `emit(taylor)`",
     note = "all other methods go by `Ensemble::integrate`, start by start on all threads"
 )]
-pub trait LaneMethod<O: LaneOde<T>, T: Lane>: Sync {
+pub trait LaneMethod<O: CastOde<T>, T: Lane>: Sync {
     /// Data of the method that lasts for a run.
     #[doc(hidden)]
     type Steps<R: Simd<T>>: LaneSteps<T, R, System = O>;
@@ -56,7 +56,7 @@ pub trait LaneMethod<O: LaneOde<T>, T: Lane>: Sync {
 /// Data of a method that integrates one trajectory in each lane.
 pub trait LaneSteps<T: Lane, R: Simd<T>> {
     /// Type of the system in each lane.
-    type System: LaneOde<T>;
+    type System: CastOde<T>;
 
     /// Returns the systems of all lanes.
     fn models(&mut self) -> &mut Models<Self::System, T, R>;

@@ -36,7 +36,7 @@ use super::right_hand_side::StepSpan;
 use crate::interruption;
 use crate::scalar::{InstructionSet, Lane};
 use crate::simd::{Kernel, Simd, dispatch};
-use crate::system::{LaneOde, State};
+use crate::system::{CastOde, State};
 
 /// List of trajectories to integrate in lanes, with the method, the output times and the end.
 pub(crate) struct Task<'a, M, O, T> {
@@ -77,7 +77,7 @@ pub(crate) fn integrate<M, O, T>(
     done: &mut dyn FnMut(usize, Outcome<T>),
 ) where
     M: LaneMethod<O, T>,
-    O: LaneOde<T>,
+    O: CastOde<T>,
     T: Lane,
 {
     let kernel = LaneDriver { task, next, done };
@@ -95,7 +95,7 @@ struct LaneDriver<'a, M, O, T> {
 impl<M, O, T> Kernel<T> for LaneDriver<'_, M, O, T>
 where
     M: LaneMethod<O, T>,
-    O: LaneOde<T>,
+    O: CastOde<T>,
     T: Lane,
 {
     type Output = ();
@@ -153,7 +153,7 @@ where
 impl<M, O, T> LaneDriver<'_, M, O, T>
 where
     M: LaneMethod<O, T>,
-    O: LaneOde<T>,
+    O: CastOde<T>,
     T: Lane,
 {
     fn refuse_all(&mut self, error: &InputError<T>) {

@@ -10,13 +10,13 @@ use crate::integrate::error::InputError;
 use crate::integrate::registers::set_lane;
 use crate::scalar::Lane;
 use crate::simd::Simd;
-use crate::system::LaneOde;
+use crate::system::CastOde;
 
 /// The systems of all lanes, stored as one system whose constants are registers.
 ///
-/// A constant is identified by its index in the order in which [`LaneOde::on_scalar`] converts
+/// A constant is identified by its index in the order in which [`CastOde::cast`] converts
 /// constants. Each model's constant goes into its lane of the register with the same index.
-pub struct Models<O: LaneOde<T>, T: Lane, R: Simd<T>> {
+pub struct Models<O: CastOde<T>, T: Lane, R: Simd<T>> {
     /// The systems of all lanes, as one system with registers as constants.
     pub(crate) registers: O::Of<R>,
     /// Constants of the systems, in the order of conversion.
@@ -25,7 +25,7 @@ pub struct Models<O: LaneOde<T>, T: Lane, R: Simd<T>> {
     shape: usize,
 }
 
-impl<O: LaneOde<T>, T: Lane, R: Simd<T>> Models<O, T, R> {
+impl<O: CastOde<T>, T: Lane, R: Simd<T>> Models<O, T, R> {
     /// Creates the systems with the same system in every lane.
     pub(crate) fn splat(system: &O) -> Self {
         let constants = RefCell::new(Vec::new());
@@ -87,6 +87,6 @@ impl<O: LaneOde<T>, T: Lane, R: Simd<T>> Models<O, T, R> {
 
 /// Converts a system to one whose constants are registers. Takes `&dyn Fn` so that the function is
 /// compiled once for all conversions.
-fn convert<O: LaneOde<T>, T: Lane, R: Simd<T>>(system: &O, convert: &dyn Fn(T) -> R) -> O::Of<R> {
-    system.on_scalar(convert)
+fn convert<O: CastOde<T>, T: Lane, R: Simd<T>>(system: &O, convert: &dyn Fn(T) -> R) -> O::Of<R> {
+    system.cast(convert)
 }

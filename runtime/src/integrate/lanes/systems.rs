@@ -11,10 +11,10 @@ use crate::integrate::registers::{Numbers, check_finite, numbers, numbers_in};
 use crate::integrate::right_hand_side::{MOST_STAGES, RightHandSide};
 use crate::scalar::Lane;
 use crate::simd::{Part, Simd, outlined};
-use crate::system::LaneOde;
+use crate::system::CastOde;
 
 /// The systems in the lanes, with a record of the stages at which rates were finite.
-pub struct LaneSystems<O: LaneOde<T>, T: Lane, R: Simd<T>> {
+pub struct LaneSystems<O: CastOde<T>, T: Lane, R: Simd<T>> {
     pub(crate) models: Models<O, T, R>,
     /// For each lane, zero after each stage with finite rates; NaN from the first stage on whose
     /// rates are not finite.
@@ -23,7 +23,7 @@ pub struct LaneSystems<O: LaneOde<T>, T: Lane, R: Simd<T>> {
 
 /// Evaluates the rates in a separate function that all stages call, because equations of large
 /// trees are long.
-impl<'a, O: LaneOde<T>, T: Lane, R: Simd<T>> Part<0, (R, &'a [R], &'a mut [R])>
+impl<'a, O: CastOde<T>, T: Lane, R: Simd<T>> Part<0, (R, &'a [R], &'a mut [R])>
     for Models<O, T, R>
 {
     type Output = ();
@@ -34,7 +34,7 @@ impl<'a, O: LaneOde<T>, T: Lane, R: Simd<T>> Part<0, (R, &'a [R], &'a mut [R])>
     }
 }
 
-impl<O: LaneOde<T>, T: Lane, R: Simd<T>> LaneSystems<O, T, R> {
+impl<O: CastOde<T>, T: Lane, R: Simd<T>> LaneSystems<O, T, R> {
     /// Creates the systems with the same system in every lane.
     pub(crate) fn splat(system: &O) -> Self {
         Self {
@@ -59,7 +59,7 @@ impl<O: LaneOde<T>, T: Lane, R: Simd<T>> LaneSystems<O, T, R> {
     }
 }
 
-impl<O: LaneOde<T>, T: Lane, R: Simd<T>> RightHandSide<R> for LaneSystems<O, T, R> {
+impl<O: CastOde<T>, T: Lane, R: Simd<T>> RightHandSide<R> for LaneSystems<O, T, R> {
     type Failure = Infallible;
 
     #[inline(always)]
@@ -92,7 +92,7 @@ impl<O: LaneOde<T>, T: Lane, R: Simd<T>> RightHandSide<R> for LaneSystems<O, T, 
 }
 
 /// Systems that repeat a step in order to record the time and the state of one stage in one lane.
-pub(crate) struct StageOfLane<'a, O: LaneOde<T>, T: Lane, R: Simd<T>> {
+pub(crate) struct StageOfLane<'a, O: CastOde<T>, T: Lane, R: Simd<T>> {
     pub(crate) systems: &'a mut LaneSystems<O, T, R>,
     pub(crate) lane: usize,
     pub(crate) stage: usize,
@@ -100,7 +100,7 @@ pub(crate) struct StageOfLane<'a, O: LaneOde<T>, T: Lane, R: Simd<T>> {
     pub(crate) place: (T, Vec<T>),
 }
 
-impl<O: LaneOde<T>, T: Lane, R: Simd<T>> RightHandSide<R> for StageOfLane<'_, O, T, R> {
+impl<O: CastOde<T>, T: Lane, R: Simd<T>> RightHandSide<R> for StageOfLane<'_, O, T, R> {
     type Failure = Infallible;
 
     #[inline(always)]

@@ -72,10 +72,10 @@ impl<'a, P: TaylorPendulum<T>, T: Lane, R: Simd<T>> Part<0, Expansion<'a, R>>
 
     #[inline(always)]
     fn part(&self, (time, state, coefficients, work): Expansion<'a, R>) {
-        let Some((theta, omega)) = state.split_at_checked(self.registers.links()) else {
+        let Some((theta, omega)) = state.split_at_checked(self.registers.0.links()) else {
             return;
         };
-        P::taylor_coefficients_of(&self.registers, time, theta, omega, coefficients, work);
+        P::taylor_coefficients_of(&self.registers.0, time, theta, omega, coefficients, work);
     }
 }
 

@@ -3,7 +3,7 @@
 use branched_pendulum::analysis::growth::{Grown, Growth, GrowthError, frequency_at_rest};
 use branched_pendulum::analysis::variational::Copies;
 use branched_pendulum::ensemble::Ensemble;
-use branched_pendulum::system::{LaneOde, Ode, State};
+use branched_pendulum::system::{CastOde, Ode, State};
 
 use super::InPhaseTree;
 use crate::error::TreeError;

@@ -13,7 +13,7 @@ use branched_pendulum::analysis::growth::TransverseSystem;
 use branched_pendulum::analysis::variational::Copies;
 use branched_pendulum::scalar::{Double, Dual, Scalar};
 use branched_pendulum::sectors::{Sector, Sectors};
-use branched_pendulum::system::{AbsoluteAngles, CastOde, LaneOde, Model, Ode, State, Workspace};
+use branched_pendulum::system::{AbsoluteAngles, CastOde, Model, Ode, State, Workspace};
 
 pub use self::growth::DifferenceGrowth;
 use self::merged::{Member, MergedLinks};
@@ -275,7 +275,7 @@ impl<T: Scalar> Ode<T> for InPhaseTree<T> {
     }
 }
 
-/// An in-phase tree in the lanes of one thread, with a buffer for its evaluations.
+/// An in-phase tree of one thread, with a buffer for its evaluations.
 #[allow(unreachable_pub)]
 #[derive(Debug)]
 pub struct InPhaseLanes<T> {
@@ -283,19 +283,25 @@ pub struct InPhaseLanes<T> {
     buffer: RefCell<Vec<T>>,
 }
 
-impl<T: Scalar> LaneOde<T> for InPhaseTree<T> {
-    type Of<S: Scalar> = InPhaseLanes<S>;
-
-    fn on_scalar<S: Scalar>(&self, convert: impl Fn(T) -> S) -> InPhaseLanes<S> {
-        let tree = self.cast_to(&convert);
-        let buffer = RefCell::new(vec![S::from_f64(0.0); tree.workspace_len()]);
-        InPhaseLanes { tree, buffer }
+impl<T: Scalar> Ode<T> for InPhaseLanes<T> {
+    fn dimension(&self) -> usize {
+        self.tree.dimension()
     }
 
     #[inline(always)]
-    fn rates_of<S: Scalar>(system: &InPhaseLanes<S>, time: S, state: &[S], rates: &mut [S]) {
-        let mut buffer = system.buffer.borrow_mut();
-        system.tree.write(&mut buffer, time, state, rates);
+    fn rates(&self, time: T, state: &[T], rates: &mut [T]) {
+        let mut buffer = self.buffer.borrow_mut();
+        self.tree.write(&mut buffer, time, state, rates);
+    }
+}
+
+impl<T: Scalar> CastOde<T> for InPhaseTree<T> {
+    type Of<S: Scalar> = InPhaseLanes<S>;
+
+    fn cast<S: Scalar>(&self, convert: impl Fn(T) -> S) -> InPhaseLanes<S> {
+        let tree = self.cast_to(&convert);
+        let buffer = RefCell::new(vec![S::from_f64(0.0); tree.workspace_len()]);
+        InPhaseLanes { tree, buffer }
     }
 
     fn shape(&self) -> usize {
@@ -307,14 +313,6 @@ impl<T: Scalar> LaneOde<T> for InPhaseTree<T> {
         )
             .hash(&mut hasher);
         hasher.finish() as usize
-    }
-}
-
-impl<T: Scalar, S: Scalar> CastOde<T, S> for InPhaseTree<T> {
-    type Of = InPhaseTree<S>;
-
-    fn cast(&self, convert: impl Fn(T) -> S) -> InPhaseTree<S> {
-        self.cast_to(&convert)
     }
 }
 

@@ -108,7 +108,7 @@ fn systems_of_a_tree_go_to_other_scalars() {
     let end = method.run(&pushed, &start, 0.5);
     let end = end.unwrap().state;
     let steady = UnderTorques::of(bent(), Steady(0.02));
-    let precise = CastOde::<f64, Double>::cast(&steady, Double::from_f64);
+    let precise = steady.cast(Double::from_f64);
     let wide = start.values.iter().copied().map(Double::from_f64);
     let wide: Vec<Double> = wide.collect();
     let (mut rates, mut more) = ([0.0; 10], [Double::from_f64(0.0); 10]);
@@ -173,9 +173,9 @@ impl<T: Scalar> Action<T> for Still {
 }
 
 impl<T: Scalar> CastAction<T> for Still {
-    type On<S: Scalar> = Still;
+    type Of<S: Scalar> = Still;
 
-    fn on<S: Scalar>(&self, _: impl Fn(T) -> S) -> Still {
+    fn cast<S: Scalar>(&self, _: impl Fn(T) -> S) -> Still {
         Still
     }
 }
@@ -191,9 +191,9 @@ impl<T: Scalar> Action<T> for Steady<T> {
 }
 
 impl<T: Scalar> CastAction<T> for Steady<T> {
-    type On<S: Scalar> = Steady<S>;
+    type Of<S: Scalar> = Steady<S>;
 
-    fn on<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Steady<S> {
+    fn cast<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Steady<S> {
         Steady(convert(self.0))
     }
 }

@@ -130,9 +130,9 @@ impl<T: Scalar> Action<T> for Swing<T> {
 }
 
 impl<T: Scalar> CastAction<T> for Swing<T> {
-    type On<S: Scalar> = Swing<S>;
+    type Of<S: Scalar> = Swing<S>;
 
-    fn on<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Swing<S> {
+    fn cast<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Swing<S> {
         Swing {
             from: convert(self.from),
             rate: convert(self.rate),

@@ -69,9 +69,9 @@ impl<T: Scalar> Action<T> for Motor<T> {
 }
 
 impl<T: Scalar> CastAction<T> for Motor<T> {
-    type On<S: Scalar> = Motor<S>;
+    type Of<S: Scalar> = Motor<S>;
 
-    fn on<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Motor<S> {
+    fn cast<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Motor<S> {
         let lines = self.lines.iter();
         Motor {
             lines: lines.map(|line| line.map(&convert)).collect(),

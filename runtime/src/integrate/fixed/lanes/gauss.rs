@@ -18,9 +18,9 @@ use crate::integrate::right_hand_side::{RightHandSide, StepSpan};
 use crate::integrate::steps::Failure;
 use crate::scalar::Lane;
 use crate::simd::Simd;
-use crate::system::{LaneOde, State};
+use crate::system::{CastOde, State};
 
-impl<O: LaneOde<T>, T: Lane> LaneMethod<O, T> for Gauss<T> {
+impl<O: CastOde<T>, T: Lane> LaneMethod<O, T> for Gauss<T> {
     type Steps<R: Simd<T>> = GaussInLanes<O, T, R>;
 
     fn check(&self, _dimension: usize) -> Result<(), InputError<T>> {
@@ -39,7 +39,7 @@ impl<O: LaneOde<T>, T: Lane> LaneMethod<O, T> for Gauss<T> {
 }
 
 /// Data of [`Gauss`] during a run with one trajectory in each lane.
-pub struct GaussInLanes<O: LaneOde<T>, T: Lane, R: Simd<T>> {
+pub struct GaussInLanes<O: CastOde<T>, T: Lane, R: Simd<T>> {
     systems: LaneSystems<O, T, R>,
     step: GaussStep<T, R>,
     grids: LaneGrids<T>,
@@ -47,7 +47,7 @@ pub struct GaussInLanes<O: LaneOde<T>, T: Lane, R: Simd<T>> {
     sought: Flags,
 }
 
-impl<O: LaneOde<T>, T: Lane, R: Simd<T>> LaneSteps<T, R> for GaussInLanes<O, T, R> {
+impl<O: CastOde<T>, T: Lane, R: Simd<T>> LaneSteps<T, R> for GaussInLanes<O, T, R> {
     type System = O;
 
     fn models(&mut self) -> &mut Models<O, T, R> {
@@ -149,7 +149,7 @@ impl<O: LaneOde<T>, T: Lane, R: Simd<T>> LaneSteps<T, R> for GaussInLanes<O, T, 
     }
 }
 
-impl<O: LaneOde<T>, T: Lane, R: Simd<T>> GaussInLanes<O, T, R> {
+impl<O: CastOde<T>, T: Lane, R: Simd<T>> GaussInLanes<O, T, R> {
     /// Evaluates the rates at the starts of the steps. Returns, for each lane, a finite number if
     /// all rates are finite.
     #[inline(always)]

@@ -22,9 +22,9 @@ use crate::integrate::right_hand_side::{RightHandSide, StepSpan};
 use crate::integrate::steps::Failure;
 use crate::scalar::Lane;
 use crate::simd::Simd;
-use crate::system::{LaneOde, State};
+use crate::system::{CastOde, State};
 
-impl<O: LaneOde<T>, T: Lane> LaneMethod<O, T> for Rk4<T> {
+impl<O: CastOde<T>, T: Lane> LaneMethod<O, T> for Rk4<T> {
     type Steps<R: Simd<T>> = Rk4InLanes<O, T, R>;
 
     fn check(&self, _dimension: usize) -> Result<(), InputError<T>> {
@@ -42,7 +42,7 @@ impl<O: LaneOde<T>, T: Lane> LaneMethod<O, T> for Rk4<T> {
 }
 
 /// Data of [`Rk4`] during a run with one trajectory in each lane.
-pub struct Rk4InLanes<O: LaneOde<T>, T: Lane, R: Simd<T>> {
+pub struct Rk4InLanes<O: CastOde<T>, T: Lane, R: Simd<T>> {
     systems: LaneSystems<O, T, R>,
     step: Rk4Step<R>,
     grids: LaneGrids<T>,
@@ -50,7 +50,7 @@ pub struct Rk4InLanes<O: LaneOde<T>, T: Lane, R: Simd<T>> {
     finite_end: Numbers<T>,
 }
 
-impl<O: LaneOde<T>, T: Lane, R: Simd<T>> LaneSteps<T, R> for Rk4InLanes<O, T, R> {
+impl<O: CastOde<T>, T: Lane, R: Simd<T>> LaneSteps<T, R> for Rk4InLanes<O, T, R> {
     type System = O;
 
     fn models(&mut self) -> &mut Models<O, T, R> {
@@ -145,7 +145,7 @@ impl<O: LaneOde<T>, T: Lane, R: Simd<T>> LaneSteps<T, R> for Rk4InLanes<O, T, R>
     }
 }
 
-impl<O: LaneOde<T>, T: Lane, R: Simd<T>> Rk4InLanes<O, T, R> {
+impl<O: CastOde<T>, T: Lane, R: Simd<T>> Rk4InLanes<O, T, R> {
     /// Evaluates the rates at the start of new trajectories. The other lanes are evaluated too, but
     /// keep their values.
     fn begin(&mut self, runs: &mut Runs<T>, fresh: &Flags) {
