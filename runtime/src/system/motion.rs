@@ -6,7 +6,7 @@ use core::marker::PhantomData;
 use super::function::{At, Computes, MotionKind, SliceCounts, compute_in};
 use super::model::twice;
 use super::ode::halves;
-use super::{Action, CastAction, CastOde, Model, Ode, Workspace, prescribed};
+use super::{Action, CastAction, CastOde, Model, Ode, Workspace};
 use crate::scalar::Scalar;
 
 /// Motion of a model `M` as a first-order system. `F` is the function that computes the rates, `A`
@@ -127,32 +127,82 @@ impl<M, F, A> Motion<M, F, A> {
         let Some(([angles, velocities], [first, second])) = halves else {
             return;
         };
-        match F::MOTION {
-            Some(MotionKind::Free) => {
-                first.copy_from_slice(velocities);
-                self.accelerate(workspace, time, [angles, velocities], &[], second);
-            }
-            Some(MotionKind::UnderTorques) => {
-                // The torques use the memory of the velocities until these are written.
-                self.action.act(time, angles, velocities, first);
-                self.accelerate(workspace, time, [angles, velocities], first, second);
-                first.copy_from_slice(velocities);
-            }
-            Some(MotionKind::Prescribed) => {
-                let (state, rates) = ([angles, velocities], [first, second]);
-                prescribed::write(self, workspace, time, state, rates, None);
-            }
-            Some(MotionKind::Canonical) => {
-                let (given, results) = ([angles, velocities], &mut [first, second]);
-                compute_in(&self.model, workspace, self.at(time), &given, results);
-            }
-            None => {
-                let nan = T::from_f64(f64::NAN);
-                [first, second]
-                    .into_iter()
-                    .for_each(|rates| rates.fill(nan));
+        if const { follows::<F>(MotionKind::Free) } {
+            first.copy_from_slice(velocities);
+            self.accelerate(workspace, time, [angles, velocities], &[], second);
+        } else if const { follows::<F>(MotionKind::UnderTorques) } {
+            // The torques use the memory of the velocities until these are written.
+            self.action.act(time, angles, velocities, first);
+            self.accelerate(workspace, time, [angles, velocities], first, second);
+            first.copy_from_slice(velocities);
+        } else if const { follows::<F>(MotionKind::Prescribed) } {
+            let (state, rates) = ([angles, velocities], [first, second]);
+            self.write_prescribed(workspace, time, state, rates, None);
+        } else if const { follows::<F>(MotionKind::Canonical) } {
+            let (given, results) = ([angles, velocities], &mut [first, second]);
+            compute_in(&self.model, workspace, self.at(time), &given, results);
+        } else {
+            let nan = T::from_f64(f64::NAN);
+            [first, second]
+                .into_iter()
+                .for_each(|rates| rates.fill(nan));
+        }
+    }
+
+    /// Writes the velocities and accelerations of a motion with prescribed links and, if requested,
+    /// the reactions.
+    #[inline(always)]
+    pub(super) fn write_prescribed<T: Scalar>(
+        &self,
+        workspace: Option<&mut Workspace<T>>,
+        time: T,
+        [theta, omega]: [&[T]; 2],
+        [velocities, alpha]: [&mut [T]; 2],
+        requested: Option<&mut [T]>,
+    ) where
+        F: SliceCounts,
+        M: Computes<F, T>,
+        A: Action<T>,
+    {
+        let set = self.action.prescribed_links();
+        let (links, prescribed) = (theta.len(), set.len());
+        let mut own = Workspace::new();
+        let is_kept = workspace.is_some();
+        let (room, inner) = workspace
+            .unwrap_or(&mut own)
+            .with_inner(3 * links + 5 * prescribed);
+        let (all, rest) = room.split_at_mut(3 * links);
+        let (angles, rest_of_links) = all.split_at_mut(links);
+        let (rates, torques) = rest_of_links.split_at_mut(links);
+        let (courses, rest) = rest.split_at_mut(3 * prescribed);
+        let (prescribed, reactions) = rest.split_at_mut(prescribed);
+        torques.fill(T::from_f64(0.0));
+        angles.copy_from_slice(theta);
+        rates.copy_from_slice(omega);
+        self.action.act(time, theta, omega, courses);
+        let (courses, _) = courses.as_chunks_mut::<3>();
+        for ((&link, &mut [angle, rate, alpha]), prescribed) in
+            set.iter().zip(courses).zip(&mut *prescribed)
+        {
+            *prescribed = alpha;
+            if let (Some(own_angle), Some(own_rate)) = (angles.get_mut(link), rates.get_mut(link)) {
+                (*own_angle, *own_rate) = (angle, rate);
             }
         }
+        velocities.copy_from_slice(rates);
+        let given: [&[T]; 4] = [angles, rates, torques, prescribed];
+        let results = &mut [alpha, requested.unwrap_or(reactions)];
+        let inner = is_kept.then_some(inner);
+        compute_in(&self.model, inner, self.at(time), &given, results);
+    }
+}
+
+/// Returns true if the rates of a motion follow from the function `F` in the given way. Its values
+/// are constants of branches, so that each motion contains the code of one kind only.
+const fn follows<F: SliceCounts>(kind: MotionKind) -> bool {
+    match F::MOTION {
+        Some(own) => own as u8 == kind as u8,
+        None => false,
     }
 }
 

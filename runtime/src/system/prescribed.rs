@@ -3,7 +3,7 @@
 use alloc::vec::Vec;
 use core::fmt;
 
-use super::function::{At, Computes, SliceCounts, compute_in, functions};
+use super::function::{At, Computes, functions};
 use super::{Action, CastAction, Motion, Pendulum, Workspace};
 use crate::scalar::Scalar;
 
@@ -253,48 +253,6 @@ impl<P, C> PrescribedOde<P, C> {
         let rates = rates.split_at_mut(links).into();
         let workspace = Some(&mut Workspace::new());
         let state = state.split_at(links).into();
-        write(self, workspace, time, state, rates, Some(reactions));
+        self.write_prescribed(workspace, time, state, rates, Some(reactions));
     }
-}
-
-/// Writes the velocities and accelerations of the system and, if requested, the reactions.
-#[inline(always)]
-pub(super) fn write<T: Scalar, F: SliceCounts, P: Computes<F, T>, A: Action<T>>(
-    motion: &Motion<P, F, A>,
-    workspace: Option<&mut Workspace<T>>,
-    time: T,
-    [theta, omega]: [&[T]; 2],
-    [velocities, alpha]: [&mut [T]; 2],
-    requested: Option<&mut [T]>,
-) {
-    let set = motion.action.prescribed_links();
-    let (links, prescribed) = (theta.len(), set.len());
-    let mut own = Workspace::new();
-    let is_kept = workspace.is_some();
-    let (room, inner) = workspace
-        .unwrap_or(&mut own)
-        .with_inner(3 * links + 5 * prescribed);
-    let (all, rest) = room.split_at_mut(3 * links);
-    let (angles, rest_of_links) = all.split_at_mut(links);
-    let (rates, torques) = rest_of_links.split_at_mut(links);
-    let (courses, rest) = rest.split_at_mut(3 * prescribed);
-    let (prescribed, reactions) = rest.split_at_mut(prescribed);
-    torques.fill(T::from_f64(0.0));
-    angles.copy_from_slice(theta);
-    rates.copy_from_slice(omega);
-    motion.action.act(time, theta, omega, courses);
-    let (courses, _) = courses.as_chunks_mut::<3>();
-    for ((&link, &mut [angle, rate, alpha]), prescribed) in
-        set.iter().zip(courses).zip(&mut *prescribed)
-    {
-        *prescribed = alpha;
-        if let (Some(own_angle), Some(own_rate)) = (angles.get_mut(link), rates.get_mut(link)) {
-            (*own_angle, *own_rate) = (angle, rate);
-        }
-    }
-    velocities.copy_from_slice(rates);
-    let given: [&[T]; 4] = [angles, rates, torques, prescribed];
-    let results = &mut [alpha, requested.unwrap_or(reactions)];
-    let inner = is_kept.then_some(inner);
-    compute_in(&motion.model, inner, motion.at(time), &given, results);
 }
