@@ -123,6 +123,7 @@ impl<M, F, A> Motion<M, F, A> {
         M: Computes<F, T>,
         A: Action<T>,
     {
+        const { assert!(is_motion::<F>(), "the function describes no motion") }
         let halves = halves(self.coordinates::<T>(), state, rates);
         let Some(([angles, velocities], [first, second])) = halves else {
             return;
@@ -138,14 +139,10 @@ impl<M, F, A> Motion<M, F, A> {
         } else if const { follows::<F>(MotionKind::Prescribed) } {
             let (state, rates) = ([angles, velocities], [first, second]);
             self.write_prescribed(workspace, time, state, rates, None);
-        } else if const { follows::<F>(MotionKind::Canonical) } {
+        } else {
+            // The rates of canonical variables.
             let (given, results) = ([angles, velocities], &mut [first, second]);
             compute_in(&self.model, workspace, self.at(time), &given, results);
-        } else {
-            let nan = T::from_f64(f64::NAN);
-            [first, second]
-                .into_iter()
-                .for_each(|rates| rates.fill(nan));
         }
     }
 
@@ -194,6 +191,19 @@ impl<M, F, A> Motion<M, F, A> {
         let results = &mut [alpha, requested.unwrap_or(reactions)];
         let inner = is_kept.then_some(inner);
         compute_in(&self.model, inner, self.at(time), &given, results);
+    }
+}
+
+/// Returns true if [`Motion::write`] has the code of the function's kind of motion.
+const fn is_motion<F: SliceCounts>() -> bool {
+    match F::MOTION {
+        Some(
+            MotionKind::Free
+            | MotionKind::UnderTorques
+            | MotionKind::Prescribed
+            | MotionKind::Canonical,
+        ) => true,
+        None => false,
     }
 }
 
