@@ -67,9 +67,10 @@ pub trait Pendulum<T: Scalar>: Model<T> {
         self.accelerations_into(time, theta, omega, alpha);
     }
 
-    /// Writes the angular accelerations (rad/s²) like [`accelerations_into`](Self::accelerations_into), with
-    /// generalized torques Q (N m) in addition to all others: M θ̈ + b = Q. Their power is Q·ω. All
-    /// slices have one number for each [link](Model::links); for other lengths the results
+    /// Writes the angular accelerations (rad/s²) like
+    /// [`accelerations_into`](Self::accelerations_into), with generalized torques Q (N m) in
+    /// addition to all others: M θ̈ + b = Q. Their power is Q·ω. All slices have one number for each
+    /// [link](Model::links); for other lengths the results
     /// are NaN. Compiled models have this function if the description has `emit(forces)`.
     ///
     /// Q_i is a couple on link i. For the torques of forces on links, see

@@ -15,10 +15,10 @@ use crate::tree::shape::Shape;
 ///
 /// The accelerations α of a tree solve M α + b = Q. If the state or a constant changes, the sum Σ w_i
 /// α_i with weights w changes by λ·δ(Q − M α − b), where λ solves M λ = w and δ is the change with α
-/// and λ held constant. The product λ·(Q − M α − b) is the virtual power of all forces, including
-/// those of inertia, along the virtual angular velocities λ (d'Alembert's principle). It is a sum over
-/// links, springs and dampers, and each term depends on few angles. Therefore one pass from the root
-/// to the leaves and one back give all derivatives.
+/// and λ held constant. The product λ·(Q − M α − b) is the virtual power of all forces, inertial
+/// forces included, along the virtual angular velocities λ (d'Alembert's principle). It is a sum
+/// over links, springs and dampers, and each term depends on few angles. Therefore one pass from the
+/// root to the leaves and one back give all derivatives.
 #[derive(Clone, Debug, PartialEq)]
 pub struct VirtualPower<T> {
     pub(super) shape: Shape,

@@ -29,10 +29,10 @@ pub enum Solver {
 /// Gauss–Legendre methods of order 2, 4, 6 and 8 with steps of constant length: symmetric, and
 /// symplectic if the state is canonical.
 ///
-/// If the state consists of coordinates and momenta ([`CanonicalVariables`]), the energy of a conservative
-/// system does not drift: even in a long run its error stays that of one step, plus a random walk
-/// of rounding. If it consists of angles and velocities, the methods are only symmetric, which for
-/// reversible motion does nearly as well.
+/// If the state consists of coordinates and momenta ([`CanonicalVariables`]), the energy of a
+/// conservative system does not drift: even in a long run its error stays as small as in one step,
+/// plus a random walk of rounding. If it consists of angles and velocities, the methods are only
+/// symmetric, which for reversible motion does nearly as well.
 ///
 /// Explicit kick-drift splittings (leapfrog, Störmer–Verlet, Yoshida) do not apply: they need a
 /// kinetic energy that depends on the momenta alone, H = T(p) + U(q). The kinetic energy of links
