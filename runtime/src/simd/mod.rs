@@ -84,6 +84,9 @@ pub trait Simd<T>: Scalar + Sealed<T> {
     /// in advance. This needs many registers, and sines without branches.
     const AHEAD: bool = false;
 
+    /// True if an operation on this type is one operation for each lane.
+    const APART: bool = false;
+
     /// Type of a single lane with the same arithmetic.
     type One: Simd<T>;
 

@@ -55,6 +55,8 @@ impl<T: Scalar, const N: usize> Simd<T> for Lanes<T, N> {
     type Mask = [bool; N];
     type Chunk = [T; N];
 
+    const APART: bool = true;
+
     const LANES: usize = {
         assert!(N > 0, "a wide number has at least one lane");
         N

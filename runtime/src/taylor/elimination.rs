@@ -143,8 +143,13 @@ impl<'a, T: Scalar, L: TreeLinks> TaylorElimination<'a, T, L> {
         let (mut sums, mut answers) = (buffer.link_quads(), buffer.link_quads());
         let (sums, answers) = (sums.as_mut(), answers.as_mut());
         sums.fill(Quad::splat(T::from_f64(-0.0)));
-        self.rise::<V>([&forces, &cosines], sums, answers);
-        self.downward_pass::<V>(&cosines, answers);
+        if V::APART {
+            self.rise_apart([&forces, &cosines], sums, answers);
+            self.downward_pass_apart(&cosines, answers);
+        } else {
+            self.rise::<V>([&forces, &cosines], sums, answers);
+            self.downward_pass::<V>(&cosines, answers);
+        }
         for m in 0..packs {
             if P::LANES == 1 {
                 let ([own_s, own_y, _, _], [_, along, _, _]) = (answers[m].0, sums[m].0);
@@ -189,10 +194,12 @@ impl<'a, T: Scalar, L: TreeLinks> TaylorElimination<'a, T, L> {
             (of_cosine * c)
                 .plus_product(of_torque, x)
                 .store_quad(answers, i);
-            let [of_torque, of_cosine] = load::<T, V>(of_up);
-            let up = (of_cosine * c).plus_product(of_torque, x);
-            let parent = links.parent(i);
-            (V::load_quad(sums, parent) + up).store_quad(sums, parent);
+            if i > 0 {
+                let [of_torque, of_cosine] = load::<T, V>(of_up);
+                let up = (of_cosine * c).plus_product(of_torque, x);
+                let parent = links.parent(i);
+                (V::load_quad(sums, parent) + up).store_quad(sums, parent);
+            }
         }
         for &i in links.carriers() {
             let [of_up, of_pull, of_own, _, _] = &factors[i];
@@ -237,6 +244,115 @@ impl<'a, T: Scalar, L: TreeLinks> TaylorElimination<'a, T, L> {
             }
             sum.plus_product(of_sine, V::splat(answers[parent].0[0]))
                 .store_quad(answers, i);
+        }
+    }
+
+    /// Upward pass for numbers that hold several states each. A product with a quad then takes four
+    /// operations, where a register of one state takes one. This pass leaves out products with the
+    /// zeros and ones of the factors, and numbers that no link reads: the force on the root's pivot.
+    #[inline(always)]
+    fn rise_apart(
+        &self,
+        columns: [&impl OfLinks<T>; 2],
+        sums: &mut [Quad<T>],
+        answers: &mut [Quad<T>],
+    ) {
+        for &i in self.links.leaves() {
+            self.raise::<true>(i, columns, sums, answers);
+        }
+        for &i in self.links.carriers() {
+            self.raise::<false>(i, columns, sums, answers);
+        }
+    }
+
+    /// Computes link `i` in the upward pass.
+    #[inline(always)]
+    fn raise<const LEAF: bool>(
+        &self,
+        i: usize,
+        [forces, cosines]: [&impl OfLinks<T>; 2],
+        sums: &mut [Quad<T>],
+        answers: &mut [Quad<T>],
+    ) {
+        let [of_up, of_pull, of_own, _, _] = &self.factors[i];
+        let [torque, _, f_x, f_y] = sums[i].0;
+        let c = cosines.of(i);
+        let x = if LEAF {
+            forces.of(i)
+        } else {
+            forces.of(i) + torque
+        };
+        let own = |l: usize| (of_own[1].0[l] * c).plus_product(of_own[0].0[l], x);
+        let none = T::from_f64(-0.0);
+        answers[i] = Quad([own(0), own(1), none, none]);
+        if i == 0 {
+            return;
+        }
+        let parent = self.links.parent(i);
+        let up = |l: usize| (of_up[1].0[l] * c).plus_product(of_up[0].0[l], x);
+        let pulled = |l: usize| match LEAF {
+            true => up(l),
+            false => up(l)
+                .plus_product(of_pull[0].0[l], f_x)
+                .plus_product(of_pull[1].0[l], f_y),
+        };
+        let sum = &mut sums[parent].0;
+        (sum[0], sum[1]) = (sum[0] + pulled(0), sum[1] + pulled(1));
+        if parent > 0 {
+            let [more_x, more_y] = if LEAF {
+                [up(2), up(3)]
+            } else {
+                [up(2) + f_x, up(3) + f_y]
+            };
+            (sum[2], sum[3]) = (sum[2] + more_x, sum[3] + more_y);
+        }
+    }
+
+    /// Downward pass for numbers that hold several states each. It leaves out the accelerations of
+    /// leaves, which no link reads.
+    #[inline(always)]
+    fn downward_pass_apart(&self, cosines: &impl OfLinks<T>, answers: &mut [Quad<T>]) {
+        for &i in self.links.carriers().iter().rev() {
+            self.lower::<false>(i, cosines, answers);
+        }
+        for &i in self.links.leaves() {
+            self.lower::<true>(i, cosines, answers);
+        }
+    }
+
+    /// Computes link `i` in the downward pass.
+    #[inline(always)]
+    fn lower<const LEAF: bool>(
+        &self,
+        i: usize,
+        cosines: &impl OfLinks<T>,
+        answers: &mut [Quad<T>],
+    ) {
+        if i == 0 {
+            return;
+        }
+        let [_, _, _, of_parent, of_fall] = &self.factors[i];
+        let parent = self.links.parent(i);
+        let ([sine, _, a_x, a_y], cosine) = (answers[parent].0, cosines.of(parent));
+        let own = &mut answers[i].0;
+        let turned = |own: T, l: usize| {
+            own.plus_product(of_parent[1].0[l], cosine)
+                .plus_product(of_parent[0].0[l], sine)
+        };
+        (own[0], own[1]) = (turned(own[0], 0), turned(own[1], 1));
+        if !LEAF {
+            (own[2], own[3]) = (turned(own[2], 2), turned(own[3], 3));
+        }
+        // The root's pivot does not move.
+        if parent > 0 {
+            for l in 0..2 {
+                own[l] = own[l]
+                    .plus_product(of_fall[0].0[l], a_x)
+                    .plus_product(of_fall[1].0[l], a_y);
+            }
+            if !LEAF {
+                (own[2], own[3]) = (own[2] + a_x, own[3] + a_y);
+            }
         }
     }
 }
