@@ -73,7 +73,7 @@ impl<T: Scalar> TreeTorques<'_, T> {
             oppose(b, -torque);
         }
         for (law, buffer) in tree
-            .rough
+            .non_viscous
             .iter()
             .zip(self.laws.chunks_exact_mut(self.buffer))
         {
@@ -116,14 +116,14 @@ impl<T: Scalar> Bias<T> for TreeTorques<'_, T> {
             passive,
             spring_dampers,
             lines,
-            rough,
+            non_viscous,
             ..
         } = self.tree;
         let own = [
             passive.is_empty(),
             spring_dampers.is_empty(),
             lines.is_empty(),
-            rough.is_empty(),
+            non_viscous.is_empty(),
         ];
         own.contains(&false) || self.drive.is_some()
     }

@@ -51,7 +51,7 @@ pub struct SeriesTree<T> {
     pub(super) spring_dampers: Vec<SpringDamper<T>>,
     /// Springs, repulsions and dampers along lines between points.
     pub(super) lines: Vec<TranslationalSpringDamper<T>>,
-    pub(super) rough: Vec<NonViscousFriction<T>>,
+    pub(super) non_viscous: Vec<NonViscousFriction<T>>,
     /// Factor that converts torques from N m to the units of the links.
     pub(super) share: T,
 }
@@ -110,7 +110,7 @@ impl<T: Scalar> SeriesTree<T> {
     #[must_use]
     pub fn new(
         links: &[SeriesLink<T>],
-        rough: Vec<NonViscousFriction<T>>,
+        non_viscous: Vec<NonViscousFriction<T>>,
         share: T,
         SeriesForm { lateral, passive }: SeriesForm,
     ) -> Self {
@@ -149,7 +149,10 @@ impl<T: Scalar> SeriesTree<T> {
             passive: passive.collect(),
             spring_dampers: Vec::new(),
             lines: Vec::new(),
-            rough: rough.into_iter().filter(|law| is_of(law, count)).collect(),
+            non_viscous: non_viscous
+                .into_iter()
+                .filter(|law| is_of(law, count))
+                .collect(),
             share,
         }
     }
@@ -165,8 +168,8 @@ impl<T: Scalar> SeriesTree<T> {
                 continue;
             }
             let other = Some(other);
-            let rough = own.law.map(|law| NonViscousFriction { link, other, law });
-            self.rough.extend(rough);
+            let non_viscous = own.law.map(|law| NonViscousFriction { link, other, law });
+            self.non_viscous.extend(non_viscous);
             self.spring_dampers.push(own);
         }
         self
@@ -187,7 +190,7 @@ impl<T: Scalar> SeriesTree<T> {
     pub fn cast<S: Scalar>(&self, convert: impl Fn(T) -> S) -> SeriesTree<S> {
         let pairs = |pairs: &[[T; 2]]| pairs.iter().map(|pair| pair.map(&convert)).collect();
         let numbers = |numbers: &[T]| numbers.iter().copied().map(&convert).collect();
-        let rough = self.rough.iter().map(|law| law.map(&convert));
+        let non_viscous = self.non_viscous.iter().map(|law| law.map(&convert));
         SeriesTree {
             hanging: Arc::clone(&self.hanging),
             inertias: numbers(&self.inertias),
@@ -202,7 +205,7 @@ impl<T: Scalar> SeriesTree<T> {
                 .map(|own| own.map(&convert))
                 .collect(),
             lines: self.lines.iter().map(|own| own.map(&convert)).collect(),
-            rough: rough.collect(),
+            non_viscous: non_viscous.collect(),
             share: convert(self.share),
         }
     }

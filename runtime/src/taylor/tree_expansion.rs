@@ -19,7 +19,7 @@ impl<T: Scalar> SeriesTree<T> {
     #[must_use]
     pub fn workspace(&self, order: usize) -> usize {
         let links = self.inertias.len();
-        let laws = self.rough.len() * law_buffer_len(order);
+        let laws = self.non_viscous.len() * law_buffer_len(order);
         let lines = self.lines.iter().map(|line| line_buffer_len(line, order));
         workspace(links, order)
             + buffer_quads(links)
@@ -69,7 +69,7 @@ impl<T: Scalar> SeriesTree<T> {
         let (sines, rest) = rest.split_at_mut(quads);
         let (cosines, rest) = rest.split_at_mut(quads);
         let (first, rest) = rest.split_at_mut(quads);
-        let (laws, lines) = rest.split_at_mut(self.rough.len() * law_buffer_len(order));
+        let (laws, lines) = rest.split_at_mut(self.non_viscous.len() * law_buffer_len(order));
         write_sines(theta, sines, cosines);
         let mut torques = TreeTorques {
             tree: self,

@@ -33,9 +33,9 @@ impl<T: Scalar> InPhaseTree<T> {
         angle_rates.copy_from_slice(velocities);
         let evaluation = (buffer, time, [angles, velocities], alpha);
         match self.form {
-            Form::Plain => outlined::<STRAIGHT, T, _, _>(self, evaluation),
+            Form::Plain => outlined::<PLAIN, T, _, _>(self, evaluation),
             Form::General => outlined::<GENERAL, T, _, _>(self, evaluation),
-            Form::NonViscous => outlined::<ROUGH, T, _, _>(self, evaluation),
+            Form::NonViscous => outlined::<NON_VISCOUS, T, _, _>(self, evaluation),
         }
     }
 
@@ -132,4 +132,4 @@ macro_rules! part {
     )*};
 }
 
-part!(STRAIGHT = 0: PlainEquations, GENERAL = 1: GeneralEquations, ROUGH = 2: NonViscousEquations);
+part!(PLAIN = 0: PlainEquations, GENERAL = 1: GeneralEquations, NON_VISCOUS = 2: NonViscousEquations);
