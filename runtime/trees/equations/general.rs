@@ -14,6 +14,6 @@
             spring = s, rest = r),
     ],
     drive(torque = q),
-    emit(energies, forces, positions),
+    emit(forces, positions),
 )]
 pub(crate) struct General;

@@ -8,6 +8,6 @@
     trunk(mass = m, com = d, inertia = i, joint = l) [
         bough(mass = m, com = d, inertia = i, joint = l) [ twig(mass = m, com = d, inertia = i) ],
     ],
-    emit(energies, forces),
+    emit(forces),
 )]
 pub(crate) struct Plain;

@@ -2,26 +2,19 @@
 //! pivot, of the link with its subtree.
 
 use branched_pendulum::scalar::Double;
+use branched_pendulum::tree::Bodies;
 
-use crate::equations::{Form, GeneralBodyRow, NonViscousBodyRow, PlainBodyRow};
+use crate::equations::{NonViscousBodyRow, NonViscousEquations};
 use crate::numbers::LinkNumbers;
 
-impl Form {
-    /// Returns the constants for energies and powers, one row per link.
-    pub(crate) fn bodies(self, links: &[LinkNumbers], gravity: Double) -> Vec<Double> {
-        let bodies = carried(links).into_iter().zip(links);
-        match self {
-            Self::Plain => bodies
-                .flat_map(|(carried, link)| carried.plain(link, gravity).into_array())
-                .collect(),
-            Self::General => bodies
-                .flat_map(|(carried, link)| carried.general(link, gravity).into_array())
-                .collect(),
-            Self::NonViscous => bodies
-                .flat_map(|(carried, link)| carried.non_viscous(link, gravity).into_array())
-                .collect(),
-        }
-    }
+/// Links of a tree as rigid bodies, for energies and powers. The equations with all kinds of friction
+/// serve every tree: the constants of missing torques are zero.
+pub(crate) type LinkBodies<T> = Bodies<NonViscousEquations, T>;
+
+/// Returns the constants for energies and powers, one row per link.
+pub(crate) fn bodies(links: &[LinkNumbers], gravity: Double) -> Vec<NonViscousBodyRow<Double>> {
+    let bodies = carried(links).into_iter().zip(links);
+    bodies.map(|(own, link)| own.body(link, gravity)).collect()
 }
 
 /// Inertia of a link together with its subtree, relative to the link's pivot.
@@ -35,40 +28,8 @@ pub(crate) struct Carried {
 }
 
 impl Carried {
-    /// Returns the constants for energies of a link of [`Form::Plain`].
-    fn plain(self, link: &LinkNumbers, gravity: Double) -> PlainBodyRow<Double> {
-        PlainBodyRow {
-            body_mass: link.mass,
-            body_inertia: link.inertia,
-            com_along: link.com[0],
-            pivot_along: link.pivot[0],
-            weight_moment: gravity * self.moment[0],
-        }
-    }
-
-    /// Returns the constants for energies of a link of [`Form::General`].
-    fn general(self, link: &LinkNumbers, gravity: Double) -> GeneralBodyRow<Double> {
-        let passive = &link.passive;
-        GeneralBodyRow {
-            rest: passive.rest,
-            body_mass: link.mass,
-            body_inertia: link.inertia,
-            com_along: link.com[0],
-            com_across: link.com[1],
-            pivot_along: link.pivot[0],
-            pivot_across: link.pivot[1],
-            carried_moment: self.moment[0],
-            lateral_carried_moment: self.moment[1],
-            weight_moment: gravity * self.moment[0],
-            lateral_weight_moment: gravity * self.moment[1],
-            stiffness: passive.spring,
-            pivot_friction: passive.friction,
-            ground_drag: passive.drag,
-        }
-    }
-
-    /// Returns the constants for energies of a link of [`Form::NonViscous`].
-    fn non_viscous(self, link: &LinkNumbers, gravity: Double) -> NonViscousBodyRow<Double> {
+    /// Returns the constants for energies and powers of a link.
+    fn body(self, link: &LinkNumbers, gravity: Double) -> NonViscousBodyRow<Double> {
         let passive = &link.passive;
         let [joint, ground] = &passive.laws;
         NonViscousBodyRow {

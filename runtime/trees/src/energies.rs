@@ -7,7 +7,7 @@ use branched_pendulum::system::{Model, Slopes, Workspace, gradient};
 use branched_pendulum::translational::TranslationalSpringDampers;
 
 use crate::between::Between;
-use crate::bodies::FormBodies;
+use crate::carried::LinkBodies;
 use crate::tree::PendulumTree;
 
 impl<T: Scalar> PendulumTree<T> {
@@ -68,7 +68,7 @@ impl<T: Scalar> PendulumTree<T> {
         self.momenta_of(&bodies, theta, omega)
     }
 
-    fn momenta_of(&self, bodies: &FormBodies<Slopes<T>>, theta: &[T], omega: &[T]) -> Vec<T> {
+    fn momenta_of(&self, bodies: &LinkBodies<Slopes<T>>, theta: &[T], omega: &[T]) -> Vec<T> {
         // A value that is not a number has derivatives of zero.
         if theta.len() != self.links() {
             return vec![T::from_f64(f64::NAN); self.links()];
@@ -161,7 +161,7 @@ impl PendulumTree<f64> {
 
 /// Returns the potential energy (J) of gravity and of all springs.
 pub(crate) fn potential_energy<T: Scalar>(
-    bodies: &FormBodies<T>,
+    bodies: &LinkBodies<T>,
     between: &Between<T>,
     workspace: &mut Workspace<T>,
     theta: &[T],

@@ -15,7 +15,6 @@
 //! The speed of code that is written out stays with compiled models: `docs/run-time-trees.md`.
 
 mod between;
-mod bodies;
 mod canonical;
 mod carried;
 mod description;

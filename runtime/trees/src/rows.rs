@@ -1,14 +1,14 @@
-//! Constants of the equations: the moments of each link about its pivot. Child links that have no
-//! children themselves are included as point masses at their pivots.
+//! Constants of the equations: the moments of each link about its pivot, with child links that have
+//! no children themselves as point masses at their pivots, and the torques in its joint.
 
 use branched_pendulum::scalar::{Double, Scalar};
 use branched_pendulum::system::LinkProperties;
 use branched_pendulum_codegen::scene::PassiveTorques;
 
-use crate::carried::{Carried, carried};
+use crate::carried::bodies;
 #[cfg(feature = "strips")]
 use crate::equations::PrescribedRow;
-use crate::equations::{ByRuleRow, Form, GeneralRow, NonViscousRow, PlainRow};
+use crate::equations::{ByRuleRow, Form, GeneralRow, NonViscousBodyRow, NonViscousRow, PlainRow};
 use crate::numbers::LinkNumbers;
 
 impl Form {
@@ -26,20 +26,14 @@ impl Form {
 
     /// Returns the constants of the equations, one row for each link.
     pub(crate) fn rows<S: Scalar>(self, links: &[LinkNumbers<S>], carries: &[bool]) -> Vec<S> {
-        let moments = moments(links, carries).into_iter();
-        let rows = moments.zip(links);
+        let all = all_constants(links, carries).into_iter();
         match self {
-            Self::Plain => {
-                let rows = rows.zip(attachments(links));
-                let rows = rows.flat_map(|((row, _), place)| row.plain(place).into_array());
-                rows.collect()
-            }
-            Self::General => rows
-                .flat_map(|(row, link)| row.general(link).into_array())
+            Self::Plain => all
+                .zip(attachments(links))
+                .flat_map(|(own, along)| plain(NonViscousRow { along, ..own }).into_array())
                 .collect(),
-            Self::NonViscous => rows
-                .flat_map(|(row, link)| row.non_viscous(link).into_array())
-                .collect(),
+            Self::General => all.flat_map(|own| general(own).into_array()).collect(),
+            Self::NonViscous => all.flat_map(NonViscousRow::into_array).collect(),
         }
     }
 }
@@ -79,72 +73,41 @@ fn attachments<S: Scalar>(links: &[LinkNumbers<S>]) -> Vec<S> {
     places
 }
 
-/// Moments of a link, from the derived equations of one link (`docs/pipeline.md`): M = m (d² + e²) + I
-/// + σ (ℓ² + w²), h = m d + σ ℓ, h⊥ = m e + σ w, S = m + σ.
-#[derive(Clone, Copy, Debug)]
-struct Moments<S> {
-    inertia: S,
-    moment: [S; 2],
-    mass: S,
-    /// h/M and h⊥/M of a link without children; zero for others.
-    gain: [S; 2],
-    inverse_inertia: S,
-}
-
-impl<S: Scalar> Moments<S> {
-    /// Returns the constants of [`Form::Plain`]; `place` is the distance along the link from its
-    /// pivot to that of its children.
-    fn plain(self, place: S) -> PlainRow<S> {
-        let Self {
-            inertia,
-            moment: [moment, _],
-            mass,
-            gain: [gain_along, _],
-            inverse_inertia,
-        } = self;
-        PlainRow {
+/// Returns all constants of the equations of each link; each form of the equations reads some of
+/// them. The moments follow from the derived equations of one link (`docs/pipeline.md`): M = m (d² +
+/// e²) + I + σ (ℓ² + w²), h = m d + σ ℓ, h⊥ = m e + σ w, S = m + σ, with the mass σ of the child links
+/// that have no children.
+fn all_constants<S: Scalar>(links: &[LinkNumbers<S>], carries: &[bool]) -> Vec<NonViscousRow<S>> {
+    let (zero, one) = (S::from_f64(0.0), S::from_f64(1.0));
+    let mut rows: Vec<NonViscousRow<S>> = Vec::with_capacity(links.len());
+    for (link, carries) in links.iter().zip(carries) {
+        let ([along, across], passive) = (link.pivot, &link.passive);
+        let [moment, lateral_moment] = link.com.map(|place| link.mass * place);
+        let inertia = link.inertia + moment * link.com[0] + lateral_moment * link.com[1];
+        let (mass, [gain_along, gain_across], inverse_inertia) = match carries {
+            true => (link.mass, [zero; 2], zero),
+            false => (
+                zero,
+                [moment / inertia, lateral_moment / inertia],
+                one / inertia,
+            ),
+        };
+        if let (false, Some(parent)) = (carries, link.parent.and_then(|at| rows.get_mut(at))) {
+            let first = [link.mass * along, link.mass * across];
+            parent.inertia = parent.inertia + first[0] * along + first[1] * across;
+            parent.moment = parent.moment + first[0];
+            parent.lateral_moment = parent.lateral_moment + first[1];
+            parent.mass = parent.mass + link.mass;
+        }
+        let [joint, ground] = &passive.laws;
+        rows.push(NonViscousRow {
             inertia,
             moment,
+            lateral_moment,
             mass,
             gain_along,
+            gain_across,
             inverse_inertia,
-            along: place,
-        }
-    }
-
-    /// Returns the constants of [`Form::General`].
-    fn general(self, link: &LinkNumbers<S>) -> GeneralRow<S> {
-        let ([along, across], passive) = (link.pivot, &link.passive);
-        GeneralRow {
-            inertia: self.inertia,
-            moment: self.moment[0],
-            lateral_moment: self.moment[1],
-            mass: self.mass,
-            gain_along: self.gain[0],
-            gain_across: self.gain[1],
-            inverse_inertia: self.inverse_inertia,
-            along,
-            across,
-            friction: passive.friction,
-            drag: passive.drag,
-            spring: passive.spring,
-            rest: passive.rest,
-            drive_torque: S::from_f64(0.0),
-        }
-    }
-
-    /// Returns the constants of [`Form::NonViscous`], which includes all kinds of friction.
-    fn non_viscous(self, link: &LinkNumbers<S>) -> NonViscousRow<S> {
-        let ([along, across], passive) = (link.pivot, &link.passive);
-        let [joint, ground] = &passive.laws;
-        NonViscousRow {
-            inertia: self.inertia,
-            moment: self.moment[0],
-            lateral_moment: self.moment[1],
-            mass: self.mass,
-            gain_along: self.gain[0],
-            gain_across: self.gain[1],
-            inverse_inertia: self.inverse_inertia,
             along,
             across,
             friction: passive.friction,
@@ -158,91 +121,70 @@ impl<S: Scalar> Moments<S> {
             friction_width: joint.width,
             quadratic_drag: ground.quadratic,
             drag_width: ground.width,
-            drive_torque: S::from_f64(0.0),
-        }
+            drive_torque: zero,
+        });
     }
-
-    /// Returns the constants of the equations of links whose motion may be prescribed.
-    #[cfg(feature = "strips")]
-    fn prescribed(self, link: &LinkNumbers<S>) -> PrescribedRow<S> {
-        let ([along, across], passive) = (link.pivot, &link.passive);
-        let [joint, ground] = &passive.laws;
-        PrescribedRow {
-            inertia: self.inertia,
-            moment: self.moment[0],
-            lateral_moment: self.moment[1],
-            mass: self.mass,
-            inverse_inertia: self.inverse_inertia,
-            along,
-            across,
-            friction: passive.friction,
-            drag: passive.drag,
-            spring: passive.spring,
-            rest: passive.rest,
-            coulomb: joint.coulomb,
-            static_excess: joint.excess,
-            stribeck_rate: joint.stribeck,
-            quadratic_friction: joint.quadratic,
-            friction_width: joint.width,
-            quadratic_drag: ground.quadratic,
-            drag_width: ground.width,
-            drive_torque: S::from_f64(0.0),
-        }
-    }
+    rows
 }
 
-impl Moments<Double> {
-    /// Returns the constants of the equations and energies of a tree by rule; `place` is the
-    /// position of the children's pivot on the link.
-    fn by_rule(
-        self,
-        link: &LinkNumbers,
-        place: [Double; 2],
-        carried: Carried,
-        gravity: Double,
-    ) -> ByRuleRow<Double> {
-        let passive = &link.passive;
-        let [joint, ground] = &passive.laws;
-        ByRuleRow {
-            inertia: self.inertia,
-            moment: self.moment[0],
-            lateral_moment: self.moment[1],
-            mass: self.mass,
-            gain_along: self.gain[0],
-            gain_across: self.gain[1],
-            inverse_inertia: self.inverse_inertia,
-            along: place[0],
-            across: place[1],
-            friction: passive.friction,
-            drag: passive.drag,
-            spring: passive.spring,
-            rest: passive.rest,
-            coulomb: joint.coulomb,
-            static_excess: joint.excess,
-            stribeck_rate: joint.stribeck,
-            quadratic_friction: joint.quadratic,
-            friction_width: joint.width,
-            quadratic_drag: ground.quadratic,
-            drag_width: ground.width,
-            body_mass: link.mass,
-            body_inertia: link.inertia,
-            com_along: link.com[0],
-            com_across: link.com[1],
-            place_along: place[0],
-            place_across: place[1],
-            carried_moment: carried.moment[0],
-            lateral_carried_moment: carried.moment[1],
-            gravity,
-            stiffness: passive.spring,
-            pivot_friction: passive.friction,
-            ground_drag: passive.drag,
-            pivot_coulomb: joint.coulomb,
-            pivot_excess: joint.excess,
-            pivot_quadratic: joint.quadratic,
-            ground_quadratic: ground.quadratic,
-            drive_torque: Double::from_f64(0.0),
-        }
-    }
+/// Creates a row from the constants of the same names in other rows: `row!(Row { from: a, b; })`.
+macro_rules! row {
+    ($row:ident { $($from:ident: $($name:ident),+;)+ }) => {
+        $row { $($($name: $from.$name,)+)+ }
+    };
+}
+
+/// Returns the constants of [`Form::Plain`]; `own.along` is the distance along the link from its
+/// pivot to that of its children.
+fn plain<S>(own: NonViscousRow<S>) -> PlainRow<S> {
+    row!(PlainRow { own: inertia, moment, mass, gain_along, inverse_inertia, along; })
+}
+
+/// Returns the constants of [`Form::General`].
+fn general<S>(own: NonViscousRow<S>) -> GeneralRow<S> {
+    row!(GeneralRow {
+        own: inertia, moment, lateral_moment, mass, gain_along, gain_across, inverse_inertia, along,
+            across, friction, drag, spring, rest, drive_torque;
+    })
+}
+
+/// Returns the constants of the equations of links whose motion may be prescribed, in one row for
+/// each link.
+#[cfg(feature = "strips")]
+pub(crate) fn prescribed(links: &[LinkNumbers], carries: &[bool]) -> Vec<Double> {
+    let rows = all_constants(links, carries).into_iter().map(|own| {
+        row!(PrescribedRow {
+            own: inertia, moment, lateral_moment, mass, inverse_inertia, along, across, friction,
+                drag, spring, rest, coulomb, static_excess, stribeck_rate, quadratic_friction,
+                friction_width, quadratic_drag, drag_width, drive_torque;
+        })
+    });
+    rows.flat_map(PrescribedRow::into_array).collect()
+}
+
+/// Constants of a generation in addition to those of its links.
+struct GenerationConstants {
+    /// Position of the children's pivot on the link.
+    place_along: Double,
+    place_across: Double,
+    gravity: Double,
+}
+
+/// Returns the constants of the equations and energies of a generation.
+fn of_generation(
+    own: NonViscousRow<Double>,
+    body: NonViscousBodyRow<Double>,
+    more: GenerationConstants,
+) -> ByRuleRow<Double> {
+    row!(ByRuleRow {
+        own: inertia, moment, lateral_moment, mass, gain_along, gain_across, inverse_inertia, along,
+            across, friction, drag, spring, rest, coulomb, static_excess, stribeck_rate,
+            quadratic_friction, friction_width, quadratic_drag, drag_width, drive_torque;
+        body: body_mass, body_inertia, com_along, com_across, carried_moment,
+            lateral_carried_moment, stiffness, pivot_friction, ground_drag, pivot_coulomb,
+            pivot_excess, pivot_quadratic, ground_quadratic;
+        more: place_along, place_across, gravity;
+    })
 }
 
 /// Returns the links' parents, and for each link whether it has children.
@@ -257,48 +199,6 @@ pub(crate) fn parents<S>(links: &[LinkNumbers<S>]) -> (Vec<u32>, Vec<bool>) {
         parent as u32
     });
     (parents.collect(), carries)
-}
-
-fn moments<S: Scalar>(links: &[LinkNumbers<S>], carries: &[bool]) -> Vec<Moments<S>> {
-    let zero = S::from_f64(0.0);
-    let mut rows: Vec<Moments<S>> = Vec::with_capacity(links.len());
-    for (link, carries) in links.iter().zip(carries) {
-        let [along, across] = link.com;
-        let moment = link.com.map(|place| link.mass * place);
-        let inertia = link.inertia + moment[0] * along + moment[1] * across;
-        let (mass, gain, inverse_inertia) = match carries {
-            true => (link.mass, [zero; 2], zero),
-            false => (
-                zero,
-                moment.map(|moment| moment / inertia),
-                S::from_f64(1.0) / inertia,
-            ),
-        };
-        if let (false, Some(parent)) = (carries, link.parent.and_then(|at| rows.get_mut(at))) {
-            let [along, across] = link.pivot;
-            let first = [link.mass * along, link.mass * across];
-            parent.inertia = parent.inertia + first[0] * along + first[1] * across;
-            parent.moment = [parent.moment[0] + first[0], parent.moment[1] + first[1]];
-            parent.mass = parent.mass + link.mass;
-        }
-        rows.push(Moments {
-            inertia,
-            moment,
-            mass,
-            gain,
-            inverse_inertia,
-        });
-    }
-    rows
-}
-
-/// Returns the constants of the equations of links whose motion may be prescribed, in one row for
-/// each link.
-#[cfg(feature = "strips")]
-pub(crate) fn prescribed(links: &[LinkNumbers], carries: &[bool]) -> Vec<Double> {
-    let rows = moments(links, carries).into_iter().zip(links);
-    rows.flat_map(|(row, link)| row.prescribed(link).into_array())
-        .collect()
 }
 
 /// A generation of identical links.
@@ -317,11 +217,21 @@ pub(crate) fn by_rule(
     gravity: Double,
     generations: &[Generation],
 ) -> Vec<Double> {
-    let (moments, carried) = (moments(links, carries), carried(links));
+    let (all, bodies) = (all_constants(links, carries), bodies(links, gravity));
     let rows = generations.iter().filter_map(|generation| {
         let &Generation { link, place } = generation;
-        let (own, carried) = (links.get(link)?, *carried.get(link)?);
-        Some(moments.get(link)?.by_rule(own, place, carried, gravity))
+        let [along, across] = place;
+        let own = NonViscousRow {
+            along,
+            across,
+            ..*all.get(link)?
+        };
+        let more = GenerationConstants {
+            place_along: along,
+            place_across: across,
+            gravity,
+        };
+        Some(of_generation(own, *bodies.get(link)?, more))
     });
     rows.flat_map(ByRuleRow::into_array).collect()
 }

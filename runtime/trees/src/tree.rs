@@ -10,10 +10,10 @@ use branched_pendulum::taylor::SeriesTree;
 use branched_pendulum::tree::{PropertyTable, Shape};
 
 use crate::between::Between;
-use crate::bodies::FormBodies;
+use crate::carried::{LinkBodies, bodies};
 use crate::description::TreeDescription;
 use crate::drive::Courses;
-use crate::equations::{Form, GeneralEquations};
+use crate::equations::{Form, GeneralEquations, NonViscousBodyRow};
 use crate::error::TreeError;
 use crate::forms::{Acting, Equations};
 use crate::numbers::{self, LinkNumbers};
@@ -71,7 +71,7 @@ use crate::symmetric::Symmetry;
 pub struct PendulumTree<T = f64> {
     pub(crate) described: Arc<Described>,
     pub(crate) equations: Equations<T>,
-    pub(crate) bodies: FormBodies<T>,
+    pub(crate) bodies: LinkBodies<T>,
     pub(crate) properties: PropertyTable<GeneralEquations, T>,
     pub(crate) drive: Option<Courses<T>>,
     pub(crate) scales: Option<TreeScales<T>>,
@@ -174,6 +174,8 @@ impl<T: Scalar> PendulumTree<T> {
         let mut hasher = DefaultHasher::new();
         (&parents, form, functions, stands, held_sets, pairs).hash(&mut hasher);
         let shape = Shape::Shared(parents.into());
+        let bodies = bodies(links, gravity).into_iter();
+        let bodies: Vec<Double> = bodies.flat_map(NonViscousBodyRow::into_array).collect();
         let described = Described {
             names: numbers::names(scene),
             shape: hasher.finish() as usize,
@@ -184,11 +186,7 @@ impl<T: Scalar> PendulumTree<T> {
         Self {
             described: Arc::new(described),
             equations,
-            bodies: FormBodies::new(
-                form,
-                shape.clone(),
-                in_numbers(&form.bodies(links, gravity)),
-            ),
+            bodies: LinkBodies::new(shape.clone(), in_numbers(&bodies)),
             properties: PropertyTable::new(shape, in_numbers(&rows::properties(links)))
                 .standing(stands),
             drive: Courses::of(scene, &|quantity| {

@@ -18,9 +18,9 @@ mod non_viscous;
 mod plain;
 
 pub(crate) use by_rule::{ByRuleEquations, ByRuleRow};
-pub(crate) use general::{GeneralBodyRow, GeneralEquations, GeneralRow};
+pub(crate) use general::{GeneralEquations, GeneralRow};
 pub(crate) use non_viscous::{NonViscousBodyRow, NonViscousEquations, NonViscousRow};
-pub(crate) use plain::{PlainBodyRow, PlainEquations, PlainRow};
+pub(crate) use plain::{PlainEquations, PlainRow};
 #[cfg(feature = "strips")]
 pub(crate) use prescribed::{PrescribedEquations, PrescribedRow};
 
