@@ -136,6 +136,19 @@ impl Emission<'_> {
                     self.tree.evaluate(#drive, theta, omega, alpha);
                 }
 
+                #[inline(always)]
+                fn evaluate_with(
+                    &self,
+                    workspace: &mut #runtime::system::Workspace<T>,
+                    #time: T,
+                    [theta, omega]: [&[T]; 2],
+                    alpha: &mut [T],
+                ) {
+                    let torques = ::core::option::Option::None;
+                    let given = #runtime::tree::LinkStates { theta, omega, torques };
+                    self.tree.evaluate_apart(workspace, #drive, given, alpha);
+                }
+
                 fn accelerations_into(
                     &self,
                     #time: T,

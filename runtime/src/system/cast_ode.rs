@@ -1,6 +1,6 @@
 //! Systems of equations that can be converted to other scalar types.
 
-use super::Ode;
+use super::{Ode, Workspace};
 use crate::scalar::Scalar;
 
 /// A system of equations whose constants can be converted to any scalar type, such as a model in its
@@ -94,12 +94,20 @@ pub trait CastOde<T: Scalar>: Ode<T> {
     fn cast<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Self::Of<S>;
 
     /// Writes the rates of a converted system in the arithmetic of `S`, as ensembles in lanes need
-    /// them. Override this if [`Ode::rates`] uses other arithmetic.
+    /// them, with a workspace that the caller keeps. Override this if [`Ode::rates`] uses other
+    /// arithmetic or needs memory.
     ///
     /// This function and [`Ode::rates`] should be `#[inline(always)]`: the caller chooses the
     /// instructions for which they are compiled.
     #[inline(always)]
-    fn rates_of<S: Scalar>(system: &Self::Of<S>, time: S, state: &[S], rates: &mut [S]) {
+    fn rates_of<S: Scalar>(
+        system: &Self::Of<S>,
+        workspace: &mut Workspace<S>,
+        time: S,
+        state: &[S],
+        rates: &mut [S],
+    ) {
+        let _ = workspace;
         system.rates(time, state, rates);
     }
 
@@ -120,8 +128,14 @@ impl<T: Scalar, O: CastOde<T>> CastOde<T> for &O {
     }
 
     #[inline(always)]
-    fn rates_of<S: Scalar>(system: &Self::Of<S>, time: S, state: &[S], rates: &mut [S]) {
-        O::rates_of(system, time, state, rates);
+    fn rates_of<S: Scalar>(
+        system: &Self::Of<S>,
+        workspace: &mut Workspace<S>,
+        time: S,
+        state: &[S],
+        rates: &mut [S],
+    ) {
+        O::rates_of(system, workspace, time, state, rates);
     }
 
     fn shape(&self) -> usize {

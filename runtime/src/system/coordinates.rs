@@ -3,9 +3,9 @@
 use super::function::{At, Computes, functions};
 use super::model::twice;
 use super::ode::halves;
-use super::pendulum::put;
+
 use super::{CastOde, Free, Model, Motion, Ode, Pendulum, Workspace};
-use crate::scalar::{Scalar, at};
+use crate::scalar::Scalar;
 
 /// A pendulum as a first-order system in absolute angles: the state is the angles followed by the
 /// angular velocities. Contains a pendulum, or a reference to one.
@@ -91,7 +91,13 @@ impl<T: Scalar, P: Pendulum<T>> CastOde<T> for AbsoluteAngles<P> {
     }
 
     #[inline(always)]
-    fn rates_of<S: Scalar>(system: &Self::Of<S>, time: S, state: &[S], rates: &mut [S]) {
+    fn rates_of<S: Scalar>(
+        system: &Self::Of<S>,
+        workspace: &mut Workspace<S>,
+        time: S,
+        state: &[S],
+        rates: &mut [S],
+    ) {
         let pendulum = &system.0;
         // Uses the number that the compiler knows, if it does.
         let links = pendulum.links();
@@ -104,12 +110,7 @@ impl<T: Scalar, P: Pendulum<T>> CastOde<T> for AbsoluteAngles<P> {
         for (rate, velocity) in velocities.iter_mut().zip(omega) {
             *rate = *velocity;
         }
-        pendulum.evaluate(
-            time,
-            |link| at(theta, link),
-            |link| at(omega, link),
-            |link, value| put(alpha, link, value),
-        );
+        pendulum.evaluate_with(workspace, time, [theta, omega], alpha);
     }
 
     fn shape(&self) -> usize {

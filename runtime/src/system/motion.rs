@@ -262,7 +262,13 @@ where
     }
 
     #[inline(always)]
-    fn rates_of<S: Scalar>(system: &Self::Of<S>, time: S, state: &[S], rates: &mut [S]) {
+    fn rates_of<S: Scalar>(
+        system: &Self::Of<S>,
+        _: &mut Workspace<S>,
+        time: S,
+        state: &[S],
+        rates: &mut [S],
+    ) {
         system.write(None, time, state, rates);
     }
 

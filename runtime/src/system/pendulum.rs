@@ -34,6 +34,27 @@ pub trait Pendulum<T: Scalar>: Model<T> {
         alpha: impl FnMut(usize, T),
     );
 
+    /// Writes the accelerations that [`evaluate`](Self::evaluate) computes, in the arithmetic of `T`
+    /// and with a workspace that the caller keeps. Ensembles in lanes call it with slices of one
+    /// number for each link.
+    #[doc(hidden)]
+    #[inline(always)]
+    fn evaluate_with(
+        &self,
+        workspace: &mut Workspace<T>,
+        time: T,
+        [theta, omega]: [&[T]; 2],
+        alpha: &mut [T],
+    ) {
+        let _ = workspace;
+        self.evaluate(
+            time,
+            |i| at(theta, i),
+            |i| at(omega, i),
+            |i, value| put(alpha, i, value),
+        );
+    }
+
     /// Writes the angular accelerations (rad/s²) of a pendulum with angles `theta` (rad) and
     /// angular velocities `omega` (rad/s) at `time` (s).
     ///
@@ -211,6 +232,17 @@ impl<T: Scalar, P: Pendulum<T>> Pendulum<T> for &P {
         alpha: impl FnMut(usize, T),
     ) {
         (**self).evaluate(time, theta, omega, alpha);
+    }
+
+    #[inline(always)]
+    fn evaluate_with(
+        &self,
+        workspace: &mut Workspace<T>,
+        time: T,
+        given: [&[T]; 2],
+        alpha: &mut [T],
+    ) {
+        (**self).evaluate_with(workspace, time, given, alpha);
     }
 
     #[inline]

@@ -251,7 +251,7 @@ impl<E: LinkEquations, T: Scalar> Tree<E, T> {
             omega,
             torques: Some(torques),
         };
-        self.evaluate_given(drive, given, alpha);
+        self.evaluate_given(&mut Workspace::new(), drive, given, alpha);
     }
 
     /// Writes the accelerations with or without external torques. This is a separate function that
@@ -259,16 +259,18 @@ impl<E: LinkEquations, T: Scalar> Tree<E, T> {
     /// numbers.
     pub fn evaluate_apart(
         &self,
+        workspace: &mut Workspace<T>,
         drive: Option<RootDrive<T>>,
         given: LinkStates<'_, T>,
         alpha: &mut [T],
     ) {
-        outlined::<0, T, _, _>(self, (drive, given, alpha));
+        outlined::<0, T, _, _>(self, (workspace, drive, given, alpha));
     }
 
     #[inline(always)]
     fn evaluate_given(
         &self,
+        workspace: &mut Workspace<T>,
         drive: Option<RootDrive<T>>,
         given: LinkStates<'_, T>,
         alpha: &mut [T],
@@ -284,12 +286,12 @@ impl<E: LinkEquations, T: Scalar> Tree<E, T> {
             alpha.fill(T::from_f64(f64::NAN));
             return;
         }
-        let mut buffer = alloc::vec![T::from_f64(0.0); self.workspace_len()];
+        let buffer = workspace.numbers(self.workspace_len());
         let zero = T::from_f64(0.0);
         let torque = |link| torques.map_or(zero, |torques| at(torques, link));
         self.accelerate_states::<T>(
             drive,
-            &mut buffer,
+            buffer,
             |link| at(theta, link),
             |link| at(omega, link),
             |link| [torque(link), zero],
@@ -327,15 +329,20 @@ impl<E: LinkEquations, T: Scalar> Tree<E, T> {
     }
 }
 
-/// Arguments of [`Tree::evaluate_apart`].
-type ApartArguments<'a, T> = (Option<RootDrive<T>>, LinkStates<'a, T>, &'a mut [T]);
+/// Arguments of [`Tree::evaluate_apart`] and [`SmallTree::evaluate_apart`].
+type ApartArguments<'a, T> = (
+    &'a mut Workspace<T>,
+    Option<RootDrive<T>>,
+    LinkStates<'a, T>,
+    &'a mut [T],
+);
 
 impl<E: LinkEquations, T: Scalar> Part<0, ApartArguments<'_, T>> for Tree<E, T> {
     type Output = ();
 
     #[inline(always)]
-    fn part(&self, (drive, given, alpha): ApartArguments<'_, T>) {
-        self.evaluate_given(drive, given, alpha);
+    fn part(&self, (workspace, drive, given, alpha): ApartArguments<'_, T>) {
+        self.evaluate_given(workspace, drive, given, alpha);
     }
 }
 

@@ -6,13 +6,14 @@
 use alloc::vec::Vec;
 use core::marker::PhantomData;
 
+use super::ApartArguments;
 use super::columns::Cells;
 use super::equations::{LinkEquations, LinkMotion, Row};
 use super::root::RootDrive;
 use super::sweep::add;
 use crate::scalar::{Scalar, at};
 use crate::simd::dispatch::in_fused_numbers;
-use crate::simd::{Kernel, Simd};
+use crate::simd::{Kernel, Part, Simd, outlined};
 use crate::system::Workspace;
 use crate::system::pendulum::put;
 
@@ -118,6 +119,34 @@ impl<E: LinkEquations, T: Scalar> SmallTree<E, T> {
         states: LinkStates<'_, T>,
         alpha: &mut [T],
     ) {
+        let drive = &drive;
+        if let Some(state) = self.state(workspace, drive, states, alpha) {
+            in_fused_numbers(state);
+        }
+    }
+
+    /// Writes the same accelerations in the arithmetic of `T`. This is a separate function that all
+    /// callers share; it is compiled for the vector instructions of the numbers.
+    pub fn evaluate_apart(
+        &self,
+        workspace: &mut Workspace<T>,
+        drive: Option<RootDrive<T>>,
+        states: LinkStates<'_, T>,
+        alpha: &mut [T],
+    ) {
+        outlined::<0, T, _, _>(self, (workspace, drive, states, alpha));
+    }
+
+    /// Returns the evaluation of a state. If a slice does not have one number per link, or if torques
+    /// are given but the equations use none, fills `alpha` with NaN and returns `None`.
+    #[inline(always)]
+    fn state<'a>(
+        &'a self,
+        workspace: &'a mut Workspace<T>,
+        drive: &'a Option<RootDrive<T>>,
+        states: LinkStates<'a, T>,
+        alpha: &'a mut [T],
+    ) -> Option<SmallTreeState<'a, E, T>> {
         let links = self.links.len();
         let LinkStates {
             theta,
@@ -128,15 +157,15 @@ impl<E: LinkEquations, T: Scalar> SmallTree<E, T> {
         let torques_fit = torques.is_none_or(|torques| E::FORCED && fits(torques));
         if !(fits(theta) && fits(omega) && fits(alpha) && torques_fit) {
             alpha.fill(T::from_f64(f64::NAN));
-            return;
+            return None;
         }
-        in_fused_numbers(SmallTreeState {
+        Some(SmallTreeState {
             tree: self,
-            drive: &drive,
+            drive,
             states,
             buffer: workspace.numbers(self.buffer),
             alpha,
-        });
+        })
     }
 
     const CONSTANTS: usize = <E::Constants<T> as Row<T>>::LENGTH;
@@ -163,6 +192,17 @@ impl<E: LinkEquations, T: Scalar> SmallTree<E, T> {
         Self::SINE,
         Self::WORKSPACE_LEN,
     ];
+}
+
+impl<E: LinkEquations, T: Scalar> Part<0, ApartArguments<'_, T>> for SmallTree<E, T> {
+    type Output = ();
+
+    #[inline(always)]
+    fn part(&self, (workspace, drive, states, alpha): ApartArguments<'_, T>) {
+        if let Some(state) = self.state(workspace, &drive, states, alpha) {
+            state.run::<T>();
+        }
+    }
 }
 
 /// Evaluation of one state, with slices whose lengths have been checked.

@@ -66,7 +66,7 @@ impl<T: Scalar> Computes<CanonicalRates, T> for PendulumTree<T> {
             given,
             results,
             |equations, acting, given, alpha| {
-                equations.evaluate_under(acting, given, alpha);
+                equations.evaluate_with(&mut Workspace::new(), acting, given, alpha);
             },
         );
     }

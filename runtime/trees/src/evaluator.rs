@@ -80,11 +80,12 @@ impl<E: LinkEquations, T: Scalar> TreeEvaluator<E, T> {
         self.links
     }
 
-    /// Writes accelerations under external actions, with numbers of type `T`. The function is
+    /// Writes accelerations under external actions, in the arithmetic of `T`. The function is
     /// shared by all callers, and is compiled for the instruction set that the caller chooses.
     #[inline(always)]
-    pub(crate) fn evaluate_under(
+    pub(crate) fn evaluate_with(
         &self,
+        workspace: &mut Workspace<T>,
         acting: Acting<'_, T>,
         [theta, omega]: [&[T]; 2],
         alpha: &mut [T],
@@ -96,7 +97,13 @@ impl<E: LinkEquations, T: Scalar> TreeEvaluator<E, T> {
             omega,
             torques,
         };
-        self.strips.evaluate_apart(acting.drive, given, alpha);
+        match &self.small {
+            Some(small) => small.evaluate_apart(workspace, acting.drive, given, alpha),
+            None => {
+                let tree = &self.strips;
+                tree.evaluate_apart(workspace, acting.drive, given, alpha);
+            }
+        }
     }
 
     /// Returns the length of the buffer that [`in_registers`](Self::in_registers) needs.
@@ -116,6 +123,7 @@ impl<E: LinkEquations, T: Scalar> TreeEvaluator<E, T> {
             true => OneOf::First(AtOneTime {
                 evaluator: self.cast(R::splat),
                 drive: drive.map(|drive| drive.map(R::splat)),
+                workspace: Workspace::new(),
             }),
             false => OneOf::Second(self.strips.in_registers(drive, buffer)),
         }

@@ -58,8 +58,22 @@ impl<E: LinkEquations, T: Scalar> TreeEvaluator<E, T> {
 
     /// Writes accelerations under external actions, in the arithmetic of `T`.
     #[inline(always)]
-    pub(crate) fn evaluate_under(&self, acting: Acting<'_, T>, given: [&[T]; 2], alpha: &mut [T]) {
-        self.accelerate(&mut Workspace::new(), acting, given, alpha);
+    pub(crate) fn evaluate_with(
+        &self,
+        workspace: &mut Workspace<T>,
+        acting: Acting<'_, T>,
+        [theta, omega]: [&[T]; 2],
+        alpha: &mut [T],
+    ) {
+        let mut sum = [T::from_f64(0.0)];
+        let torques = acting.on_links(theta.len(), &mut sum);
+        let given = LinkStates {
+            theta,
+            omega,
+            torques,
+        };
+        self.tree
+            .evaluate_apart(workspace, acting.drive, given, alpha);
     }
 
     /// Returns the length of the buffer that [`in_registers`](Self::in_registers) needs.
@@ -78,6 +92,7 @@ impl<E: LinkEquations, T: Scalar> TreeEvaluator<E, T> {
         AtOneTime {
             evaluator: self.cast(R::splat),
             drive: drive.map(|drive| drive.map(R::splat)),
+            workspace: Workspace::new(),
         }
     }
 }

@@ -17,6 +17,17 @@ enum FormEquations<T> {
     NonViscous(TreeEvaluator<NonViscousEquations, T>),
 }
 
+/// Calls a function of the equations of any form.
+macro_rules! of_form {
+    ($equations:expr, $evaluator:ident => $call:expr) => {
+        match $equations {
+            Self::Plain($evaluator) => $call,
+            Self::General($evaluator) => $call,
+            Self::NonViscous($evaluator) => $call,
+        }
+    };
+}
+
 /// External actions on a tree: its drive, and torques on its links.
 #[derive(Clone, Copy)]
 pub(crate) struct Acting<'a, T> {
@@ -68,31 +79,25 @@ impl<T: Scalar> FormEquations<T> {
         given: [&[T]; 2],
         alpha: &mut [T],
     ) {
-        match self {
-            Self::Plain(evaluator) => evaluator.accelerate(workspace, acting, given, alpha),
-            Self::General(evaluator) => evaluator.accelerate(workspace, acting, given, alpha),
-            Self::NonViscous(evaluator) => evaluator.accelerate(workspace, acting, given, alpha),
-        }
+        of_form!(self, evaluator => evaluator.accelerate(workspace, acting, given, alpha))
     }
 
     /// Writes the accelerations in the arithmetic of `T`. It is compiled for the instructions that
     /// the caller chooses.
     #[inline(always)]
-    fn evaluate_under(&self, acting: Acting<'_, T>, given: [&[T]; 2], alpha: &mut [T]) {
-        match self {
-            Self::Plain(evaluator) => evaluator.evaluate_under(acting, given, alpha),
-            Self::General(evaluator) => evaluator.evaluate_under(acting, given, alpha),
-            Self::NonViscous(evaluator) => evaluator.evaluate_under(acting, given, alpha),
-        }
+    fn evaluate_with(
+        &self,
+        workspace: &mut Workspace<T>,
+        acting: Acting<'_, T>,
+        given: [&[T]; 2],
+        alpha: &mut [T],
+    ) {
+        of_form!(self, evaluator => evaluator.evaluate_with(workspace, acting, given, alpha))
     }
 
     /// Returns the length of the buffer that [`in_registers`](Self::in_registers) needs.
     fn workspace_len(&self) -> usize {
-        match self {
-            Self::Plain(evaluator) => evaluator.workspace_len(),
-            Self::General(evaluator) => evaluator.workspace_len(),
-            Self::NonViscous(evaluator) => evaluator.workspace_len(),
-        }
+        of_form!(self, evaluator => evaluator.workspace_len())
     }
 
     /// Prepares the tree for the evaluation of many states in registers, at one time of a drive.
@@ -179,16 +184,26 @@ impl<T: Scalar> Equations<T> {
         given: [&[T]; 2],
         alpha: &mut [T],
     ) {
-        let (acting, workspace) = match self.between.is_empty() {
-            true => (acting, workspace),
-            false => {
-                let (torques, inner) = workspace.with_inner(given[0].len());
-                self.between.write_torques(acting.torques, given, torques);
-                let torques = Some(&*torques);
-                (Acting { torques, ..acting }, inner)
-            }
-        };
+        let (acting, workspace) = self.with_torques_between(workspace, acting, given);
         self.form.accelerate(workspace, acting, given, alpha);
+    }
+
+    /// Returns the external actions, with the torques of springs and friction between links added,
+    /// and the workspace that remains.
+    #[inline(always)]
+    fn with_torques_between<'a>(
+        &self,
+        workspace: &'a mut Workspace<T>,
+        acting: Acting<'a, T>,
+        given: [&[T]; 2],
+    ) -> (Acting<'a, T>, &'a mut Workspace<T>) {
+        if self.between.is_empty() {
+            return (acting, workspace);
+        }
+        let (torques, inner) = workspace.with_inner(given[0].len());
+        self.between.write_torques(acting.torques, given, torques);
+        let torques = Some(&*torques);
+        (Acting { torques, ..acting }, inner)
     }
 
     /// Computes the accelerations in the arithmetic of `T`, compiled for the instructions that the
@@ -196,24 +211,31 @@ impl<T: Scalar> Equations<T> {
     #[inline(always)]
     pub(crate) fn evaluate(
         &self,
+        workspace: &mut Workspace<T>,
         drive: Option<RootDrive<T>>,
         theta: impl Fn(usize) -> T,
         omega: impl Fn(usize) -> T,
         alpha: impl FnMut(usize, T),
     ) {
         let torques = None;
-        through_slices(self.links, theta, omega, alpha, |given, results| {
-            self.evaluate_under(Acting { drive, torques }, given, results);
-        });
+        let write = |workspace: &mut Workspace<T>, given: [&[T]; 2], results: &mut [T]| {
+            self.evaluate_with(workspace, Acting { drive, torques }, given, results);
+        };
+        through_slices(workspace, self.links, theta, omega, alpha, write);
     }
 
-    /// Writes the accelerations under external torques, in the arithmetic of `T`. It is compiled
+    /// Writes the accelerations under external actions, in the arithmetic of `T`. It is compiled
     /// for the instructions that the caller chooses.
     #[inline(always)]
-    pub(crate) fn evaluate_under(&self, acting: Acting<'_, T>, given: [&[T]; 2], alpha: &mut [T]) {
-        let mut numbers = Vec::new();
-        let acting = self.all_acting(acting, given, &mut numbers);
-        self.form.evaluate_under(acting, given, alpha);
+    pub(crate) fn evaluate_with(
+        &self,
+        workspace: &mut Workspace<T>,
+        acting: Acting<'_, T>,
+        given: [&[T]; 2],
+        alpha: &mut [T],
+    ) {
+        let (acting, workspace) = self.with_torques_between(workspace, acting, given);
+        self.form.evaluate_with(workspace, acting, given, alpha);
     }
 
     /// Returns the length of the buffer that [`in_registers`](Self::in_registers) needs.
@@ -233,29 +255,32 @@ impl<T: Scalar> Equations<T> {
             false => OneOf::Second(CoupledAtOneTime {
                 equations: self.cast(R::splat),
                 drive: drive.map(|drive| drive.map(R::splat)),
+                workspace: Workspace::new(),
             }),
         }
     }
 }
 
-/// Adapts a function of slices to callers that use closures: copies angles and velocities to
-/// slices, calls `write`, and passes each result to `alpha`.
+/// Adapts a function of slices to callers that use closures: copies angles and velocities to slices
+/// in the workspace, calls `write` with the workspace that remains, and passes each result to
+/// `alpha`.
 #[inline(always)]
 fn through_slices<T: Scalar>(
+    workspace: &mut Workspace<T>,
     links: usize,
     theta: impl Fn(usize) -> T,
     omega: impl Fn(usize) -> T,
     mut alpha: impl FnMut(usize, T),
-    write: impl FnOnce([&[T]; 2], &mut [T]),
+    write: impl FnOnce(&mut Workspace<T>, [&[T]; 2], &mut [T]),
 ) {
-    let mut numbers = vec![T::from_f64(f64::NAN); 3 * links];
+    let (numbers, inner) = workspace.with_inner(3 * links);
     let (given, results) = numbers.split_at_mut(2 * links);
     let (angles, velocities) = given.split_at_mut(links);
     let both = angles.iter_mut().zip(&mut *velocities);
     for (link, (angle, velocity)) in both.enumerate() {
         (*angle, *velocity) = (theta(link), omega(link));
     }
-    write([angles, velocities], results);
+    write(inner, [angles, velocities], results);
     for (link, acceleration) in results.iter().enumerate() {
         alpha(link, *acceleration);
     }
@@ -286,6 +311,7 @@ impl<R, A: InRegisters<R>, B: InRegisters<R>> InRegisters<R> for OneOf<A, B> {
 pub(crate) struct AtOneTime<E, R> {
     pub(crate) evaluator: TreeEvaluator<E, R>,
     pub(crate) drive: Option<RootDrive<R>>,
+    pub(crate) workspace: Workspace<R>,
 }
 
 impl<E: LinkEquations, R: Scalar> InRegisters<R> for AtOneTime<E, R> {
@@ -297,16 +323,11 @@ impl<E: LinkEquations, R: Scalar> InRegisters<R> for AtOneTime<E, R> {
         alpha: impl FnMut(usize, R),
     ) {
         let (drive, torques) = (self.drive, None);
-        through_slices(
-            self.evaluator.links(),
-            theta,
-            omega,
-            alpha,
-            |given, results| {
-                let acting = Acting { drive, torques };
-                self.evaluator.evaluate_under(acting, given, results);
-            },
-        );
+        let (evaluator, workspace) = (&self.evaluator, &mut self.workspace);
+        let write = |workspace: &mut Workspace<R>, given: [&[R]; 2], results: &mut [R]| {
+            evaluator.evaluate_with(workspace, Acting { drive, torques }, given, results);
+        };
+        through_slices(workspace, evaluator.links(), theta, omega, alpha, write);
     }
 }
 
@@ -315,6 +336,7 @@ impl<E: LinkEquations, R: Scalar> InRegisters<R> for AtOneTime<E, R> {
 struct CoupledAtOneTime<R> {
     equations: Equations<R>,
     drive: Option<RootDrive<R>>,
+    workspace: Workspace<R>,
 }
 
 impl<R: Scalar> InRegisters<R> for CoupledAtOneTime<R> {
@@ -325,6 +347,7 @@ impl<R: Scalar> InRegisters<R> for CoupledAtOneTime<R> {
         omega: impl Fn(usize) -> R,
         alpha: impl FnMut(usize, R),
     ) {
-        self.equations.evaluate(self.drive, theta, omega, alpha);
+        self.equations
+            .evaluate(&mut self.workspace, self.drive, theta, omega, alpha);
     }
 }

@@ -43,7 +43,21 @@ impl<T: Scalar> Pendulum<T> for PendulumTree<T> {
         alpha: impl FnMut(usize, T),
     ) {
         let drive = self.acting(time, None).drive;
-        self.equations.evaluate(drive, theta, omega, alpha);
+        self.equations
+            .evaluate(&mut Workspace::new(), drive, theta, omega, alpha);
+    }
+
+    #[inline(always)]
+    fn evaluate_with(
+        &self,
+        workspace: &mut Workspace<T>,
+        time: T,
+        given: [&[T]; 2],
+        alpha: &mut [T],
+    ) {
+        let acting = self.acting(time, None);
+        self.equations
+            .evaluate_with(workspace, acting, given, alpha);
     }
 
     fn accelerations_into(&self, time: T, theta: &[T], omega: &[T], alpha: &mut [T]) {
@@ -85,7 +99,9 @@ impl<T: Scalar> Computes<AccelerationsUnderTorques, T> for PendulumTree<T> {
             return no_answer(results);
         };
         let acting = self.acting(at.time, Some(torques));
-        self.equations.evaluate_under(acting, [theta, omega], alpha);
+        let workspace = &mut Workspace::new();
+        self.equations
+            .evaluate_with(workspace, acting, [theta, omega], alpha);
     }
 
     fn compute_with(

@@ -11,11 +11,12 @@ use crate::integrate::registers::{Numbers, check_finite, numbers, numbers_in};
 use crate::integrate::right_hand_side::{MOST_STAGES, RightHandSide};
 use crate::scalar::Lane;
 use crate::simd::{Part, Simd, outlined};
-use crate::system::CastOde;
+use crate::system::{CastOde, Workspace};
 
 /// The systems in the lanes, with a record of the stages at which rates were finite.
 pub struct LaneSystems<O: CastOde<T>, T: Lane, R: Simd<T>> {
     pub(crate) models: Models<O, T, R>,
+    workspace: Workspace<R>,
     /// For each lane, zero after each stage with finite rates; NaN from the first stage on whose
     /// rates are not finite.
     checks: [R; MOST_STAGES],
@@ -23,22 +24,24 @@ pub struct LaneSystems<O: CastOde<T>, T: Lane, R: Simd<T>> {
 
 /// Evaluates the rates in a separate function that all stages call, because equations of large
 /// trees are long.
-impl<'a, O: CastOde<T>, T: Lane, R: Simd<T>> Part<0, (R, &'a [R], &'a mut [R])>
-    for Models<O, T, R>
-{
+impl<'a, O: CastOde<T>, T: Lane, R: Simd<T>> Part<0, RatesArguments<'a, R>> for Models<O, T, R> {
     type Output = ();
 
     #[inline(always)]
-    fn part(&self, (time, state, rates): (R, &'a [R], &'a mut [R])) {
-        O::rates_of(&self.registers, time, state, rates);
+    fn part(&self, (workspace, time, state, rates): RatesArguments<'a, R>) {
+        O::rates_of(&self.registers, workspace, time, state, rates);
     }
 }
+
+/// Workspace, time, state, and the rates to write.
+type RatesArguments<'a, R> = (&'a mut Workspace<R>, R, &'a [R], &'a mut [R]);
 
 impl<O: CastOde<T>, T: Lane, R: Simd<T>> LaneSystems<O, T, R> {
     /// Creates the systems with the same system in every lane.
     pub(crate) fn splat(system: &O) -> Self {
         Self {
             models: Models::splat(system),
+            workspace: Workspace::new(),
             checks: [R::from_f64(0.0); MOST_STAGES],
         }
     }
@@ -69,7 +72,8 @@ impl<O: CastOde<T>, T: Lane, R: Simd<T>> RightHandSide<R> for LaneSystems<O, T, 
 
     #[inline(always)]
     fn write(&mut self, time: R, state: &[R], rates: &mut [R]) {
-        outlined::<0, R, _, _>(&self.models, (time, state, rates));
+        let workspace = &mut self.workspace;
+        outlined::<0, R, _, _>(&self.models, (workspace, time, state, rates));
     }
 
     #[inline(always)]

@@ -149,6 +149,7 @@ impl<E: LinkEquations, T: Scalar> PullbackTree<E, T> {
     ) -> [T; 3] {
         let links = self.power.links();
         let mut memory = alloc::vec![T::from_f64(0.0); Self::NUMBERS * links];
+        let workspace = &mut Workspace::new();
         self.compute(
             &mut memory,
             drive,
@@ -156,7 +157,7 @@ impl<E: LinkEquations, T: Scalar> PullbackTree<E, T> {
             slopes,
             |inertia, drive, given, alpha| {
                 let own = if inertia { &self.inertia } else { tree };
-                own.evaluate_apart(drive, given, alpha);
+                own.evaluate_apart(workspace, drive, given, alpha);
             },
         )
     }
