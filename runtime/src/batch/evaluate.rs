@@ -8,7 +8,7 @@ use super::registers::{Applied, FunctionOfStates, ValuesOf};
 use super::{Batch, BatchError};
 use crate::scalar::Lane;
 use crate::simd::dispatch;
-use crate::system::{At, Computes, Pendulum, SliceCounts, functions};
+use crate::system::{At, Computes, Pendulum, SliceFunction, functions};
 
 impl<P: Pendulum<T>, T: Lane> Batch<'_, P, T> {
     /// Writes the values of a [`state_function!`](crate::state_function) at `time` (s). Each
@@ -145,7 +145,7 @@ impl<P: Pendulum<T>, T: Lane> Batch<'_, P, T> {
         results: [&mut [impl AsMut<[T]>]; R],
     ) -> Result<(), BatchError>
     where
-        F: SliceCounts,
+        F: SliceFunction,
         P: Computes<F, T>,
     {
         const { assert!(A == F::ARGUMENTS && R == F::RESULTS) }

@@ -5,7 +5,7 @@ use core::marker::PhantomData;
 use super::function::{StateFunction, StateValues};
 use crate::scalar::{Lane, Scalar};
 use crate::simd::{Kernel, Simd};
-use crate::system::{At, Computes, Pendulum, SliceCounts};
+use crate::system::{At, Computes, Pendulum, SliceFunction};
 
 /// A function of states that can be evaluated in vector registers.
 pub(super) trait RegisterFunction<P, T: Scalar> {
@@ -69,7 +69,7 @@ pub(super) struct Applied<F, const A: usize, const R: usize> {
 
 impl<F, P, T, const A: usize, const R: usize> RegisterFunction<P, T> for Applied<F, A, R>
 where
-    F: SliceCounts,
+    F: SliceFunction,
     P: Computes<F, T>,
     T: Scalar,
 {

@@ -31,8 +31,9 @@ impl<T> At<T> {
     }
 }
 
-/// Numbers of argument slices and result slices of a function, and the motion that it describes.
-pub trait SliceCounts {
+/// A function of a state that takes slices and writes slices: how many of each, and the motion that
+/// it describes.
+pub trait SliceFunction {
     /// Number of argument slices.
     const ARGUMENTS: usize;
 
@@ -68,7 +69,7 @@ macro_rules! function {
         #[derive(Clone, Copy, Debug, PartialEq)]
         pub struct $name;
 
-        impl super::SliceCounts for $name {
+        impl super::SliceFunction for $name {
             const ARGUMENTS: usize = $given;
             const RESULTS: usize = $results;
             const MOTION: Option<super::MotionKind> = motion_kind!($($motion)?);
@@ -159,7 +160,7 @@ pub mod functions {
     message = "`{Self}` has no function `{F}` in `{T}`",
     note = "torques from outside are requested by `emit(forces)`, the torques of a given motion by `emit(inverse_dynamics)`, derivatives by `emit(gradient)`, held links by `prescribed(LINK)`, linear differences by `in_phase(…)` with `emit(transverse)`, those that act back by `emit(small)`, symmetric coordinates by `emit(symmetric)`, canonical variables by `emit(momenta)`"
 )]
-pub trait Computes<F: SliceCounts, T: Scalar>: Model<T> {
+pub trait Computes<F: SliceFunction, T: Scalar>: Model<T> {
     /// The type of the model with constants of the scalar type `S`, which has the function too.
     type On<S: Scalar>: Computes<F, S>;
 
@@ -193,7 +194,7 @@ pub trait Computes<F: SliceCounts, T: Scalar>: Model<T> {
     }
 }
 
-impl<F: SliceCounts, T: Scalar, M: Computes<F, T>> Computes<F, T> for &M {
+impl<F: SliceFunction, T: Scalar, M: Computes<F, T>> Computes<F, T> for &M {
     type On<S: Scalar> = M::On<S>;
 
     const COORDINATES: Option<usize> = M::COORDINATES;
@@ -222,7 +223,7 @@ impl<F: SliceCounts, T: Scalar, M: Computes<F, T>> Computes<F, T> for &M {
 
 /// Computes the function with the given workspace or, without one, in the arithmetic of `T`.
 #[inline(always)]
-pub(super) fn compute_in<F: SliceCounts, T: Scalar, M: Computes<F, T>>(
+pub(super) fn compute_in<F: SliceFunction, T: Scalar, M: Computes<F, T>>(
     model: &M,
     workspace: Option<&mut Workspace<T>>,
     at: At<T>,

@@ -3,7 +3,7 @@
 use core::marker::PhantomData;
 
 use super::model::known;
-use super::{At, Computes, SliceCounts};
+use super::{At, Computes, SliceFunction};
 use crate::scalar::kind::ByKind;
 use crate::scalar::{Lane, Scalar};
 use crate::simd::dispatch::in_fused_numbers;
@@ -20,7 +20,7 @@ const MOST_RESULTS: usize = 4;
 /// Computes a function with fused multiply–add if the type and the machine support it, otherwise in
 /// the arithmetic of `T`.
 #[inline(always)]
-pub(super) fn in_fused_arithmetic<F: SliceCounts, T: Scalar, M: Computes<F, T>>(
+pub(super) fn in_fused_arithmetic<F: SliceFunction, T: Scalar, M: Computes<F, T>>(
     model: &M,
     at: At<T>,
     given: &[&[T]],
@@ -62,7 +62,7 @@ struct OneState<'a, F, M, T> {
     results: [&'a mut [T]; MOST_RESULTS],
 }
 
-impl<F: SliceCounts, T: Scalar, M: Computes<F, T>> ByKind<T> for OneState<'_, F, M, T> {
+impl<F: SliceFunction, T: Scalar, M: Computes<F, T>> ByKind<T> for OneState<'_, F, M, T> {
     type Output = ();
 
     #[inline(always)]
@@ -84,7 +84,7 @@ impl<F: SliceCounts, T: Scalar, M: Computes<F, T>> ByKind<T> for OneState<'_, F,
     }
 }
 
-impl<F: SliceCounts, T: Scalar, M: Computes<F, T>> Kernel<T> for OneState<'_, F, M, T> {
+impl<F: SliceFunction, T: Scalar, M: Computes<F, T>> Kernel<T> for OneState<'_, F, M, T> {
     type Output = ();
 
     #[inline(always)]

@@ -44,7 +44,7 @@ pub use derivatives::{Slopes, gradient};
 pub use energy::Energy;
 pub use first_integral::{CanonicalEnergy, FirstIntegral, TotalEnergy};
 pub use forced::UnderTorques;
-pub use function::{At, Computes, MotionKind, SliceCounts, functions};
+pub use function::{At, Computes, MotionKind, SliceFunction, functions};
 pub use integral::WithIntegral;
 pub use link_name::LinkName;
 pub use model::Model;

@@ -3,7 +3,7 @@
 use core::fmt;
 use core::marker::PhantomData;
 
-use super::function::{At, Computes, MotionKind, SliceCounts, compute_in};
+use super::function::{At, Computes, MotionKind, SliceFunction, compute_in};
 use super::model::twice;
 use super::ode::halves;
 use super::{Action, CastAction, CastOde, Model, Ode, Workspace};
@@ -79,7 +79,7 @@ impl<M, F, A> Motion<M, F, A> {
         torques: &[T],
         accelerations: &mut [T],
     ) where
-        F: SliceCounts,
+        F: SliceFunction,
         M: Computes<F, T>,
     {
         let links = self.model.links();
@@ -119,7 +119,7 @@ impl<M, F, A> Motion<M, F, A> {
         state: &[T],
         rates: &mut [T],
     ) where
-        F: SliceCounts,
+        F: SliceFunction,
         M: Computes<F, T>,
         A: Action<T>,
     {
@@ -157,7 +157,7 @@ impl<M, F, A> Motion<M, F, A> {
         [velocities, alpha]: [&mut [T]; 2],
         requested: Option<&mut [T]>,
     ) where
-        F: SliceCounts,
+        F: SliceFunction,
         M: Computes<F, T>,
         A: Action<T>,
     {
@@ -195,7 +195,7 @@ impl<M, F, A> Motion<M, F, A> {
 }
 
 /// Returns true if [`Motion::write`] has the code of the function's kind of motion.
-const fn is_motion<F: SliceCounts>() -> bool {
+const fn is_motion<F: SliceFunction>() -> bool {
     match F::MOTION {
         Some(
             MotionKind::Free
@@ -209,7 +209,7 @@ const fn is_motion<F: SliceCounts>() -> bool {
 
 /// Returns true if the rates of a motion follow from the function `F` in the given way. Its values
 /// are constants of branches, so that each motion contains the code of one kind only.
-const fn follows<F: SliceCounts>(kind: MotionKind) -> bool {
+const fn follows<F: SliceFunction>(kind: MotionKind) -> bool {
     match F::MOTION {
         Some(own) => own as u8 == kind as u8,
         None => false,
@@ -226,7 +226,7 @@ pub(super) fn parts<T>(links: usize, values: &[T]) -> [&[T]; 2] {
 impl<T, M, F, A> Ode<T> for Motion<M, F, A>
 where
     T: Scalar,
-    F: SliceCounts,
+    F: SliceFunction,
     M: Computes<F, T>,
     A: Action<T>,
 {
@@ -248,7 +248,7 @@ where
 impl<T, M, F, A> CastOde<T> for Motion<M, F, A>
 where
     T: Scalar,
-    F: SliceCounts,
+    F: SliceFunction,
     M: Computes<F, T>,
     A: CastAction<T>,
 {
