@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use branched_pendulum::ensemble::{Ensemble, Samples};
 use branched_pendulum::integrate::Taylor;
-use branched_pendulum::system::{AbsoluteAngles, RatesOnly, State};
+use branched_pendulum::system::{AbsoluteAngles, RatesOnly};
 use branched_pendulum::{Transfer, TransferForms};
 use branched_pendulum_trees::{PendulumTree, TreeDescription, TreeError};
 use pyo3::exceptions::PyValueError;
@@ -14,7 +14,7 @@ use pyo3::prelude::*;
 use crate::arguments::named;
 use crate::arrays::{Numbers, by_state};
 use crate::estimates::Coordinates;
-use crate::measured_model::MeasuredModel;
+use crate::measured_model::{MeasuredModel, Releases};
 use crate::pendulum::Pendulum;
 use paper::Paper;
 
@@ -68,9 +68,8 @@ impl MeasuredModel for Paper {
 
     fn series_ensemble(
         _: &Taylor<f64>,
-        _: &AbsoluteAngles<Self>,
+        _: Releases<'_, Self>,
         _: &Ensemble<'_>,
-        _: &[State<f64>],
         _: &[f64],
     ) -> Option<Vec<Samples<f64>>> {
         None

@@ -3,11 +3,34 @@
 use std::borrow::Cow;
 
 use branched_pendulum::ensemble::{Ensemble, Samples};
-use branched_pendulum::integrate::Taylor;
+use branched_pendulum::integrate::{LaneMethod, Taylor};
 use branched_pendulum::system::{AbsoluteAngles, Energy, State, TaylorOde};
 use branched_pendulum_trees::{PendulumTree, TreeError};
 
 use crate::estimates::Coordinates;
+
+/// Starts of an ensemble.
+pub(crate) enum Releases<'a, M> {
+    /// Several starts of one model.
+    OfOne(&'a AbsoluteAngles<M>, &'a [State<f64>]),
+    /// Starts that each have a model.
+    OfEach(&'a [(AbsoluteAngles<M>, State<f64>)]),
+}
+
+impl<M: MeasuredModel> Releases<'_, M> {
+    /// Returns the states at the given times, computed in the lanes of vector registers.
+    pub(crate) fn sample(
+        self,
+        method: &impl LaneMethod<AbsoluteAngles<M>, f64>,
+        ensemble: &Ensemble<'_>,
+        times: &[f64],
+    ) -> Vec<Samples<f64>> {
+        match self {
+            Self::OfOne(system, starts) => ensemble.sample_in_lanes(method, system, starts, times),
+            Self::OfEach(releases) => ensemble.sample_models_in_lanes(method, releases, times),
+        }
+    }
+}
 
 /// A model with what is needed to smooth measured motions.
 pub(crate) trait MeasuredModel: Energy<f64> + Clone + Send + Sync + 'static {
@@ -33,9 +56,8 @@ pub(crate) trait MeasuredModel: Energy<f64> + Clone + Send + Sync + 'static {
     /// coefficients.
     fn series_ensemble(
         method: &Taylor<f64>,
-        system: &AbsoluteAngles<Self>,
+        releases: Releases<'_, Self>,
         ensemble: &Ensemble<'_>,
-        starts: &[State<f64>],
         times: &[f64],
     ) -> Option<Vec<Samples<f64>>>;
 

@@ -17,7 +17,7 @@ use branched_pendulum_trees::{DifferenceGrowth, TreeError};
 
 use crate::estimates::{Coordinates, Estimate};
 use crate::kept::{End, KeepError, Kept, OutputTimes};
-use crate::measured_model::MeasuredModel;
+use crate::measured_model::{MeasuredModel, Releases};
 use crate::model_smoothing::smoothed_by_equations;
 
 /// Kind of deviations whose Lyapunov exponents are computed.
@@ -61,6 +61,9 @@ pub(crate) trait Motions: Send + Sync {
 
     /// Returns the method that is usually the fastest for one motion at a tolerance.
     fn fastest_method(&self, tolerance: f64) -> Method;
+
+    /// Returns the method that is usually the fastest for an ensemble at a tolerance.
+    fn fastest_in_lanes(&self, tolerance: f64) -> Method;
 
     fn events(
         &self,
@@ -211,6 +214,10 @@ impl<M: MeasuredModel> Motions for AbsoluteAngles<M> {
         Method::for_model(&M::series(self), tolerance)
     }
 
+    fn fastest_in_lanes(&self, tolerance: f64) -> Method {
+        Method::for_lanes(&M::series(self), tolerance)
+    }
+
     fn events(
         &self,
         method: &AnyIntegrator<f64>,
@@ -229,17 +236,7 @@ impl<M: MeasuredModel> Motions for AbsoluteAngles<M> {
         starts: &[State<f64>],
         times: &[f64],
     ) -> Option<Vec<Samples<f64>>> {
-        Some(match method {
-            AnyIntegrator::Dop853(method) => ensemble.sample_in_lanes(method, self, starts, times),
-            AnyIntegrator::Dopri5(method) => ensemble.sample_in_lanes(method, self, starts, times),
-            AnyIntegrator::Verner98(method) => {
-                ensemble.sample_in_lanes(method, self, starts, times)
-            }
-            AnyIntegrator::Taylor(method) => {
-                return M::series_ensemble(method, self, ensemble, starts, times);
-            }
-            AnyIntegrator::Rk4(_) | AnyIntegrator::Gauss(_) => return None,
-        })
+        sampled(method, Releases::OfOne(self, starts), ensemble, times)
     }
 
     fn ensemble_of_models(
@@ -259,14 +256,7 @@ impl<M: MeasuredModel> Motions for AbsoluteAngles<M> {
         };
         let cases = starts.iter().enumerate().map(case);
         let cases: Vec<(Self, State<f64>)> = cases.collect::<Result<_, String>>()?;
-        Ok(Some(match method {
-            AnyIntegrator::Dop853(own) => ensemble.sample_models_in_lanes(own, &cases, times),
-            AnyIntegrator::Dopri5(own) => ensemble.sample_models_in_lanes(own, &cases, times),
-            AnyIntegrator::Verner98(own) => ensemble.sample_models_in_lanes(own, &cases, times),
-            AnyIntegrator::Rk4(_) | AnyIntegrator::Taylor(_) | AnyIntegrator::Gauss(_) => {
-                return Ok(None);
-            }
-        }))
+        Ok(sampled(method, Releases::OfEach(&cases), ensemble, times))
     }
 
     fn lyapunov(
@@ -313,4 +303,22 @@ impl<M: MeasuredModel> Motions for AbsoluteAngles<M> {
     ) -> Result<Estimate, SmoothingError> {
         smoothed_by_equations(&self.0, noise, friction, times, angles, guess)
     }
+}
+
+/// Samples an ensemble; `None` if it cannot be integrated by this method.
+fn sampled<M: MeasuredModel>(
+    method: &AnyIntegrator<f64>,
+    releases: Releases<'_, M>,
+    ensemble: &Ensemble<'_>,
+    times: &[f64],
+) -> Option<Vec<Samples<f64>>> {
+    Some(match method {
+        AnyIntegrator::Dop853(method) => releases.sample(method, ensemble, times),
+        AnyIntegrator::Dopri5(method) => releases.sample(method, ensemble, times),
+        AnyIntegrator::Verner98(method) => releases.sample(method, ensemble, times),
+        AnyIntegrator::Taylor(method) => {
+            return M::series_ensemble(method, releases, ensemble, times);
+        }
+        AnyIntegrator::Rk4(_) | AnyIntegrator::Gauss(_) => return None,
+    })
 }

@@ -4,7 +4,6 @@ use std::num::NonZeroUsize;
 use std::sync::Arc;
 
 use branched_pendulum::ensemble::Ensemble;
-use branched_pendulum::integrate::Method;
 use branched_pendulum::system::State;
 use numpy::{IntoPyArray, PyArray3, PyArrayMethods};
 use pyo3::exceptions::PyValueError;
@@ -238,14 +237,14 @@ impl Pendulum {
     /// t : array, shape (m,)
     ///     Times, s.
     /// method : str
-    ///     "dop853", "dopri5", "verner98" and, of a `Tree`, "taylor"; "auto" takes "dop853" for
-    ///     an `rtol` of 1e-4 and above, otherwise "verner98".
+    ///     "dop853", "dopri5", "verner98" and, of a `Tree`, "taylor"; "auto" takes the one that is
+    ///     usually the fastest for this model and this `rtol`.
     /// rtol, atol, first_step, max_step, max_steps
     ///     As those of `integrate`.
     /// threads : int
     ///     Number of threads, by default as many as there are cores.
     /// parameters : dict of arrays, shape (k,)
-    ///     Values of parameters of a `Tree` by name, one for each start; not with "taylor".
+    ///     Values of parameters of a `Tree` by name, one for each start.
     ///
     /// Returns
     /// -------
@@ -288,7 +287,7 @@ impl Pendulum {
         };
         let stepping = Stepping {
             method,
-            automatic: Method::for_lanes(rtol),
+            automatic: self.motions.fastest_in_lanes(rtol),
             rtol,
             atol: atol.as_ref(),
             // Methods with steps of one length are refused as such.

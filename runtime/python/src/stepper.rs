@@ -408,7 +408,7 @@ impl Tree {
         let dimension = 2 * tree.links();
         let stepping = Stepping {
             method,
-            automatic: Method::for_lanes(rtol),
+            automatic: Method::explicit_pair(rtol),
             rtol,
             atol: atol.as_ref(),
             step,

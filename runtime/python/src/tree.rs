@@ -7,7 +7,7 @@ use std::sync::{Arc, OnceLock};
 
 use branched_pendulum::ensemble::{Ensemble, Samples};
 use branched_pendulum::integrate::Taylor;
-use branched_pendulum::system::{AbsoluteAngles, Model, Positions, State};
+use branched_pendulum::system::{AbsoluteAngles, Model, Positions};
 use branched_pendulum::transfer::SymmetricTree;
 use branched_pendulum_trees::{PendulumTree, TreeDescription, TreeError};
 use pyo3::exceptions::{PyKeyError, PyValueError};
@@ -16,7 +16,7 @@ use pyo3::types::PyDict;
 
 use crate::DescriptionError;
 use crate::arguments::{Argument, named};
-use crate::measured_model::MeasuredModel;
+use crate::measured_model::{MeasuredModel, Releases};
 use crate::pendulum::Pendulum;
 
 /// Links whose names are shown.
@@ -112,12 +112,11 @@ impl MeasuredModel for PendulumTree {
 
     fn series_ensemble(
         method: &Taylor<f64>,
-        system: &AbsoluteAngles<Self>,
+        releases: Releases<'_, Self>,
         ensemble: &Ensemble<'_>,
-        starts: &[State<f64>],
         times: &[f64],
     ) -> Option<Vec<Samples<f64>>> {
-        Some(ensemble.sample_in_lanes(method, system, starts, times))
+        Some(releases.sample(method, ensemble, times))
     }
 
     fn link_parents(&self) -> Vec<Option<usize>> {

@@ -123,10 +123,11 @@ def test_ensembles_of_parameters():
     lengths = np.linspace(0.5, 2, 700)
     starts = np.tile([1.0, 0.0], (700, 1))
     t = np.linspace(0, 2, 5)
-    all_of_them = tree.ensemble(starts, t, rtol=1e-11, parameters={"l": lengths})
-    for index in (0, 1, 333, 699):
-        alone = tree.changed(l=lengths[index]).integrate(starts[index], t, rtol=1e-11)
-        np.testing.assert_allclose(all_of_them[index], alone.y, atol=1e-8)
+    for method in ["auto", "taylor", "verner98"]:
+        all_of_them = tree.ensemble(starts, t, method=method, rtol=1e-11, parameters={"l": lengths})
+        for index in (0, 1, 333, 699):
+            alone = tree.changed(l=lengths[index]).integrate(starts[index], t, rtol=1e-11)
+            np.testing.assert_allclose(all_of_them[index], alone.y, atol=1e-8)
     for error, message, given in [
         (ValueError, r'parameters\["l"\] must have shape \(700,\), got \(3,\)', {"l": [1, 2, 3]}),
         (ValueError, "no parameter `q`", {"q": lengths}),

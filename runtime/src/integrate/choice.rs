@@ -20,7 +20,7 @@ impl Method {
     ///
     /// The choice is [`Taylor`](super::Taylor) if the system has Taylor series and is small enough
     /// for the tolerance: up to 20 components at any tolerance, up to 200 at 1e-6 and below, any
-    /// number below 1e-9. Otherwise it is that of [`for_lanes`](Self::for_lanes). The limits come
+    /// number below 1e-9. Otherwise it is that of [`explicit_pair`](Self::explicit_pair). The limits come
     /// from the tables of `docs/integrators.md`; `branched-pendulum advise` measures the candidates
     /// on one machine. The choice does not consider stiff systems, which need
     /// [`Gauss`](super::Gauss).
@@ -41,14 +41,25 @@ impl Method {
             size <= SMALL_STATE || size <= LARGE_STATE && tolerance <= 1e-6 || tolerance < 1e-9;
         match system.has_series() && series {
             true => Self::Taylor,
-            false => Self::for_lanes(tolerance),
+            false => Self::explicit_pair(tolerance),
         }
     }
 
-    /// Returns the method that usually takes the least time for many motions that are integrated
-    /// in the lanes of vector registers: [`Dop853`](super::Dop853) at 1e-4 and above, and
-    /// [`Verner98`](super::Verner98) below.
-    pub fn for_lanes(tolerance: f64) -> Self {
+    /// Returns the method that usually takes the least time for many motions that are integrated in
+    /// the lanes of vector registers: [`Taylor`](super::Taylor) at 1e-10 and below if the system has
+    /// Taylor series and at most 20 components, otherwise that of
+    /// [`explicit_pair`](Self::explicit_pair).
+    pub fn for_lanes<T>(system: &(impl TaylorOde<T> + ?Sized), tolerance: f64) -> Self {
+        let series = system.has_series() && system.dimension() <= SMALL_STATE;
+        match series && tolerance <= 1e-10 {
+            true => Self::Taylor,
+            false => Self::explicit_pair(tolerance),
+        }
+    }
+
+    /// Returns the explicit pair that usually takes the least time at a relative tolerance:
+    /// [`Dop853`](super::Dop853) at 1e-4 and above, and [`Verner98`](super::Verner98) below.
+    pub fn explicit_pair(tolerance: f64) -> Self {
         match tolerance >= 1e-4 {
             true => Self::Dop853,
             false => Self::Verner98,

@@ -197,3 +197,56 @@ impl<T: Scalar> CastAction<T> for Steady<T> {
         Steady(convert(self.0))
     }
 }
+
+/// In lanes, trees of every form have the bits of single motions with constant steps, below and above
+/// the number of links from which links are computed several at a time.
+#[test]
+fn motions_in_lanes_have_the_bits_of_single_ones() {
+    let spring = ", spring = 0.02, friction = 1e-4";
+    let law = ", friction(viscous = 1e-4, coulomb = 1e-3, width = 0.1)";
+    let drive = "drive(torque = 0.1 * sin(3 * t))";
+    let mut texts = vec![
+        "gravity = 9.81, a: rod(mass = 0.1, length = 0.2) [b: rod(mass = 0.1, length = 0.2), c: rod(mass = 0.2, length = 0.1)], \
+         between(a, b, spring = 0.1, friction = 1e-3)"
+            .to_owned(),
+    ];
+    for generations in [1, 2, 3, 5, 6] {
+        for (own, more) in [("", ""), (spring, ""), (law, ""), (spring, drive)] {
+            texts.push(format!(
+                "gravity = 9.81, rod: generations(count = {generations}, branching = 2, shape = rod, \
+                 mass = 0.1, length = 0.2{own}), {more}"
+            ));
+        }
+    }
+    for text in texts {
+        let tree = PendulumTree::parse(&text).unwrap_or_else(|error| panic!("{error}"));
+        let links = tree.links() as u32;
+        let start = |number: u32| {
+            let angles = (0..links).map(|link| 0.3 + 0.1 * f64::from((7 * link + number) % 11));
+            State::at_rest(0.0, &angles.collect::<Vec<f64>>())
+        };
+        let starts: Vec<State<f64>> = (0..5).map(start).collect();
+        let (method, system) = (Rk4::new(1e-2), AbsoluteAngles(&tree));
+        let ends = Ensemble::new().integrate_in_lanes(&method, &system, &starts, 0.2);
+        for (start, end) in starts.iter().zip(ends) {
+            let alone = method.run(&system, start, 0.2).unwrap().state;
+            assert_eq!(end.unwrap().state, alone, "{text}");
+        }
+    }
+}
+
+/// The fastest method in lanes: Taylor series for few links at tight tolerances.
+#[test]
+fn the_choice_in_lanes_knows_size_and_tolerance() {
+    let choice = |generations: u32, tolerance: f64| {
+        let tree = PendulumTree::parse(&format!(
+            "gravity = 9.81, rod: generations(count = {generations}, branching = 2, shape = rod, \
+             mass = 0.1, length = 0.2)"
+        ));
+        Method::for_lanes(&AbsoluteAngles(tree.unwrap()), tolerance)
+    };
+    assert_eq!(choice(3, 1e-10), Method::Taylor);
+    assert_eq!(choice(3, 1e-9), Method::Verner98);
+    assert_eq!(choice(4, 1e-12), Method::Verner98);
+    assert_eq!(choice(3, 1e-4), Method::Dop853);
+}
