@@ -9,11 +9,18 @@ use branched_pendulum_studies::scenes::{
     BranchedDouble, DampedBranchedDouble, DampedBranchedDoubleParameters,
 };
 pub(crate) use branched_pendulum_studies::work_precision::reference::near_threshold;
-use branched_pendulum_timing::{Contender, compared};
+use branched_pendulum_timing::{Contender, Table, compared, least};
+use branched_pendulum_trees::PendulumTree;
 
 /// Order of the Taylor series: with it they are as fast as with the default order for a tolerance
 /// of 1e-9, and the errors are smaller.
 pub(crate) const ORDER: usize = 18;
+
+/// Description of the paper's pendulum, for a tree that is read at run time.
+const PAPER: &str = "gravity = 9.80665,
+    parent(mass = 0.12880, com = 0.084, inertia = 1.88e-3, joint = 0.27) [
+        child(mass = 0.10531, com = 0.043, inertia = 0.516e-3) * 2
+    ]";
 
 /// Largest friction coefficient of the second ensemble, in N m s.
 const FRICTION: f64 = 1e-3;
@@ -23,6 +30,12 @@ const COUNT: u32 = 10_000;
 
 /// Number of turns.
 const ROUNDS: usize = 5;
+
+/// Tolerances at which the methods in lanes are compared by their errors.
+const TOLERANCES: [f64; 6] = [1e-7, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12];
+
+/// The errors are those of every start whose index is a multiple of this number.
+const CHECKED: usize = 100;
 
 /// Duration of a trajectory, s.
 const END: f64 = 10.0;
@@ -40,6 +53,57 @@ fn frictions() -> Vec<(AbsoluteAngles<DampedBranchedDouble>, State<f64>)> {
         (AbsoluteAngles(model.expect("valid friction")), start)
     };
     (0..COUNT).map(release).collect()
+}
+
+/// Prints, for several tolerances, the time of each method in lanes and the median of its errors.
+/// The error of a trajectory is the largest difference of all angles (rad) and velocities (rad/s) at
+/// the end from `Taylor` at a tolerance of 1e-16.
+fn compare_errors(system: &AbsoluteAngles<BranchedDouble>, starts: &[State<f64>]) {
+    let alone = Ensemble::new().threads(NonZeroUsize::MIN);
+    let checked: Vec<State<f64>> = starts.iter().step_by(CHECKED).cloned().collect();
+    let exact = Taylor::new(Options::with_tolerance(1e-16));
+    macro_rules! ends {
+        ($solutions:expr) => {{
+            let ends = $solutions.into_iter();
+            let ends = ends.map(|end| end.expect("a regular motion").state.values);
+            ends.collect::<Vec<Vec<f64>>>()
+        }};
+    }
+    let expected = ends!(alone.integrate(&exact, system, &checked, END));
+    let mut table = Table::new(["tolerance, method", "µs for a trajectory", "median error"]);
+    for tolerance in TOLERANCES {
+        let options = || Options::with_tolerance(tolerance);
+        macro_rules! row {
+            ($name:literal, $method:expr) => {{
+                let method = $method;
+                let pass = || {
+                    black_box(alone.integrate_in_lanes(&method, system, starts, END));
+                };
+                let time = least(3, pass);
+                let found = ends!(alone.integrate_in_lanes(&method, system, &checked, END));
+                let mut errors: Vec<f64> = found.iter().zip(&expected).map(difference).collect();
+                errors.sort_by(f64::total_cmp);
+                table = table.row([
+                    format!("{tolerance:e}, {}", $name),
+                    format!("{:.1}", 1e6 * time / f64::from(COUNT)),
+                    format!("{:.1e}", errors[errors.len() / 2]),
+                ]);
+            }};
+        }
+        row!("Dop853", Dop853::new(options()));
+        row!("Verner98", Verner98::new(options()));
+        row!("Taylor", Taylor::new(options()).with_order(ORDER));
+    }
+    println!("{COUNT} starts over {END} s in lanes, one thread\n{table}");
+}
+
+/// Returns the largest difference between two states.
+fn difference((found, expected): (&Vec<f64>, &Vec<f64>)) -> f64 {
+    let differences = found
+        .iter()
+        .zip(expected)
+        .map(|(one, other)| (one - other).abs());
+    differences.fold(0.0, f64::max)
 }
 
 pub(crate) fn run() {
@@ -77,6 +141,26 @@ pub(crate) fn run() {
         "{COUNT} starts over {END} s at 1e-9, one thread: a trajectory\n{}",
         compared(ROUNDS, of_starts)
     );
+    let tree = PendulumTree::parse(PAPER).expect("a valid description");
+    let tree = AbsoluteAngles(&tree);
+    let of_tree = vec![
+        contender!(
+            "Dop853 in lanes",
+            alone.integrate_in_lanes(&dop853, &tree, &starts, END)
+        ),
+        contender!(
+            "Verner98 in lanes",
+            alone.integrate_in_lanes(&verner98, &tree, &starts, END)
+        ),
+        contender!(
+            "Taylor in lanes",
+            alone.integrate_in_lanes(&taylor, &tree, &starts, END)
+        ),
+    ];
+    println!(
+        "the same starts of a tree that is read at run time\n{}",
+        compared(ROUNDS, of_tree)
+    );
     let of_frictions = vec![
         contender!(
             "Dop853, one by one",
@@ -97,6 +181,7 @@ pub(crate) fn run() {
             alone.integrate_models_in_lanes(&taylor, &releases, END)
         ),
     ];
+    compare_errors(&system, &starts);
     println!(
         "{COUNT} friction coefficients\n{}",
         compared(ROUNDS, of_frictions)

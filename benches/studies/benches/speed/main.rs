@@ -9,6 +9,7 @@ mod gradients;
 mod lineages;
 mod normal_forms;
 mod quick;
+mod readers;
 mod reductions;
 mod scales;
 mod transverse;
@@ -25,6 +26,7 @@ macro_rules! benchmarks {
 benchmarks! {
     quick: "evaluations and motions of the paper's pendulum and of rods",
     ensembles: "trajectories one by one and in lanes",
+    readers: "accelerations through closures and through slices",
     scales: "energy budgets by scale",
     gradients: "derivatives in reverse mode",
     reductions: "smaller models of the same motion",
