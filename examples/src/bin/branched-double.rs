@@ -8,5 +8,5 @@ use branched_pendulum_examples::branched_double;
 use branched_pendulum_frame as frame;
 
 fn main() -> ExitCode {
-    frame::main(branched_double::run::run)
+    frame::main(branched_double::run)
 }

@@ -1,11 +1,12 @@
 //! Findings of a run: growth, first peak, source of the energy, and error of each form of W.
 
-use branched_pendulum::Transfer;
+use std::array;
+
 use branched_pendulum::analysis::{Modes, ModesError};
 
-use super::apparatus::{DIFFERENCE, EXACT, FORMS, Flow, MEAN, PUBLISHED, Sample, folded};
-use super::experiment::Run;
-use super::scenes::BranchedDouble;
+use super::RATE;
+use super::apparatus::{BranchedDouble, EXACT, FORMS, Sample, folded};
+use super::release::Run;
 
 /// Duration (s) before and after a maximum of H_d within which H_d must not exceed it for it to
 /// count as the first peak. H_d grows in pulses, about two seconds apart; a pulse followed by a
@@ -29,132 +30,96 @@ pub struct Findings {
     /// and the change of H_d. With friction, its power on H_d is added to W. Only samples before
     /// |θ_d| first exceeds [`SMALL_ANGLE`] are used.
     pub deviations: [Option<f64>; FORMS.len()],
-    /// Largest difference between the energy and the initial energy less the losses by friction,
-    /// divided by the initial energy.
-    pub energy_error: Option<f64>,
+    /// For each of the [`terms`](Sample::terms) of W: root mean square and largest magnitude in the
+    /// same samples, divided by the root mean square of dH_d/dt.
+    pub terms: Option<[[f64; 2]; 4]>,
 }
 
 /// The first peak of H_d.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Peak {
-    /// Index of the sample.
-    pub sample: usize,
-    /// Time, s.
-    pub time: f64,
-    /// H_d, J.
-    pub energy: f64,
+    /// Sample at the peak.
+    pub sample: Sample,
     /// Largest |θ_m| until then, rad.
     pub largest_mean: f64,
-    /// Energy (J) transferred up to the peak according to each form of W, split into kinetic and
-    /// potential part.
-    pub transferred: [Transfer<f64>; FORMS.len()],
-    /// Energy (J) that friction has added to the antiphase mode up to the peak; zero or negative.
-    pub friction: f64,
 }
 
 impl Peak {
-    /// Returns the shares of W_K and W_P in the energy transferred according to a form of W.
+    /// Returns the shares of W_K and W_P in the energy that W transfers from the release to the
+    /// peak, according to the form of W with this index.
     pub fn shares(&self, form: usize) -> Option<(f64, f64)> {
-        let transfer = self.transferred.get(form)?;
-        let total = transfer.total();
-        let shares = (transfer.kinetic / total, transfer.potential / total);
-        (shares.0.is_finite() && shares.1.is_finite()).then_some(shares)
-    }
-
-    /// Returns the shares of W_K and W_P according to the form published in the paper.
-    pub fn published_shares(&self) -> Option<(f64, f64)> {
-        self.shares(PUBLISHED)
-    }
-
-    /// Returns the shares of W_K and W_P according to the exact form.
-    pub fn exact_shares(&self) -> Option<(f64, f64)> {
-        self.shares(EXACT)
+        let transferred = self.sample.supplied.transfer(form);
+        let whole = transferred.total();
+        ratio(transferred.kinetic, whole).zip(ratio(transferred.potential, whole))
     }
 }
 
 impl Findings {
     /// Reads a run.
     pub fn new(run: &Run) -> Self {
+        let samples = &run.samples;
+        let end = samples
+            .iter()
+            .position(|sample| sample.difference.abs() > SMALL_ANGLE);
+        let small = &samples[..end.unwrap_or(samples.len())];
         Self {
-            growth: growth(&run.samples),
-            peak: peak(run),
-            deviations: std::array::from_fn(|form| deviation(run, form)),
-            energy_error: energy_error(run),
+            growth: growth(samples),
+            peak: peak(samples),
+            deviations: array::from_fn(|form| deviation(small, form)),
+            terms: term_sizes(small),
         }
     }
 }
 
-fn growth(samples: &[Sample]) -> Option<f64> {
-    let size = |sample: &Sample| folded(sample.coordinates[DIFFERENCE]).abs();
-    let largest = samples.iter().map(size).fold(0.0, f64::max);
-    ratio(largest, samples.first().map_or(0.0, size))
+/// Returns the largest |θ_d|, folded to π/2 at most, divided by the first one; `None` for a
+/// disturbance of zero.
+pub fn growth(samples: &[Sample]) -> Option<f64> {
+    let size = |sample: &Sample| folded(sample.difference).abs();
+    ratio(largest(samples, size), size(samples.first()?))
 }
 
-fn peak(run: &Run) -> Option<Peak> {
-    let sample = first_peak(&run.samples)?;
-    let until = run.samples.get(..=sample)?;
-    let at = until.last()?;
-    let mut flowed = Flow::default();
-    for flow in run.intervals.iter().take(sample) {
-        flowed.add(1.0, flow);
-    }
+/// Finds the first maximum of H_d that is not exceeded within [`PEAK_REACH`] before and after it,
+/// as far as there are samples.
+fn peak(samples: &[Sample]) -> Option<Peak> {
+    let reach = (PEAK_REACH * RATE) as usize;
+    let energy = |index: usize| samples[index].antiphase_energy;
+    let is_peak = |&at: &usize| {
+        let mut near = at.saturating_sub(reach)..samples.len().min(at + reach + 1);
+        energy(at - 1) < energy(at) && near.all(|other| energy(other) <= energy(at))
+    };
+    let index = (1..samples.len().saturating_sub(1)).find(is_peak)?;
     Some(Peak {
-        sample,
-        time: at.time,
-        energy: at.antiphase_energy,
-        largest_mean: until
-            .iter()
-            .map(|sample| sample.coordinates[MEAN].abs())
-            .fold(0.0, f64::max),
-        transferred: flowed.transfer,
-        friction: flowed.antiphase_friction,
+        sample: samples[index],
+        largest_mean: largest(&samples[..=index], |sample| sample.mean.abs()),
     })
 }
 
-/// Returns the index of the first maximum of H_d that is not exceeded within [`PEAK_REACH`] before
-/// and after it, as far as there are samples.
-fn first_peak(samples: &[Sample]) -> Option<usize> {
-    let is_peak = |index: usize| {
-        let (before, rest) = samples.split_at_checked(index)?;
-        let (at, after) = rest.split_first()?;
-        let near = |other: &&Sample| (other.time - at.time).abs() <= PEAK_REACH;
-        let neighbours = before.iter().rev().take_while(near);
-        let mut neighbours = neighbours.chain(after.iter().take_while(near));
-        let rises = before.last()?.antiphase_energy < at.antiphase_energy;
-        let falls = after.first()?.antiphase_energy <= at.antiphase_energy;
-        let lower = |other: &Sample| other.antiphase_energy <= at.antiphase_energy;
-        (rises && falls && neighbours.all(lower)).then_some(index)
+fn deviation(small: &[Sample], form: usize) -> Option<f64> {
+    let changes = |of: &dyn Fn(&Sample) -> f64| {
+        let changes = small.windows(2).map(|pair| of(&pair[1]) - of(&pair[0]));
+        changes.map(|change| change.powi(2)).sum::<f64>().sqrt()
     };
-    (0..samples.len()).find_map(is_peak)
+    let energy = |sample: &Sample| sample.antiphase_energy;
+    let excess = |sample: &Sample| sample.supplied.total(form) - energy(sample);
+    ratio(changes(&excess), changes(&energy))
 }
 
-fn deviation(run: &Run, form: usize) -> Option<f64> {
-    let is_small = |pair: &&[Sample]| {
-        let mut angles = pair.iter().map(|sample| sample.coordinates[DIFFERENCE]);
-        angles.all(|angle| angle.abs() <= SMALL_ANGLE)
+fn term_sizes(small: &[Sample]) -> Option<[[f64; 2]; 4]> {
+    let rms = |of: &dyn Fn(&Sample) -> f64| {
+        let sum: f64 = small.iter().map(|sample| of(sample).powi(2)).sum();
+        (sum / small.len() as f64).sqrt()
     };
-    let changes = run.samples.windows(2).take_while(is_small);
-    let changes = changes.zip(&run.intervals);
-    let (mut difference, mut whole) = (0.0, 0.0);
-    for (pair, flow) in changes {
-        let &[before, after] = pair else { continue };
-        let change = after.antiphase_energy - before.antiphase_energy;
-        difference += (flow.antiphase_rate(form) - change).powi(2);
-        whole += change.powi(2);
-    }
-    ratio(difference.sqrt(), whole.sqrt())
+    let scale = rms(&|sample| sample.powers.total(EXACT));
+    let size = |term: usize| {
+        let term = |sample: &Sample| sample.terms[term];
+        let largest = largest(small, |sample| term(sample).abs());
+        [rms(&term), largest].map(|size| size / scale)
+    };
+    (scale > 0.0).then(|| array::from_fn(size))
 }
 
-fn energy_error(run: &Run) -> Option<f64> {
-    let mut samples = run.samples.iter();
-    let initial = samples.next()?.energy;
-    let mut expected = initial;
-    let mut largest = 0.0_f64;
-    for (sample, flow) in samples.zip(&run.intervals) {
-        expected += flow.friction;
-        largest = largest.max((sample.energy - expected).abs());
-    }
-    ratio(largest, initial)
+fn largest(samples: &[Sample], of: impl Fn(&Sample) -> f64) -> f64 {
+    samples.iter().map(of).fold(0.0, f64::max)
 }
 
 fn ratio(part: f64, whole: f64) -> Option<f64> {
@@ -169,111 +134,24 @@ pub struct Frequencies {
     pub plus: f64,
     /// f_−: frequency of the faster in-phase mode.
     pub minus: f64,
-    /// f_d: the antiphase mode.
+    /// f_d: frequency of the antiphase mode.
     pub antiphase: f64,
 }
 
 impl Frequencies {
-    /// Frequencies that the paper measured.
-    pub const MEASURED: Self = Self {
-        plus: 0.88,
-        minus: 1.58,
-        antiphase: 1.26,
-    };
-
-    /// Computes the frequencies of the small oscillations about the rest position.
+    /// Computes the frequencies of the small oscillations about the rest position. The antiphase
+    /// frequency lies between the two others.
     ///
     /// # Errors
     /// As [`Modes::new`].
     pub fn of(model: &BranchedDouble) -> Result<Self, ModesError> {
         let rest = [0.0; 3];
         let modes = Modes::new(&model.mass_matrix(&rest), &model.stiffness_matrix(&rest))?;
-        // In the antiphase mode the children move against each other.
-        let difference = |shape: &[f64]| match shape {
-            &[_, theta_2, theta_3] => (theta_2 - theta_3).abs(),
-            _ => f64::NAN,
-        };
-        let antiphase = (0..modes.shapes.len())
-            .max_by(|&a, &b| difference(&modes.shapes[a]).total_cmp(&difference(&modes.shapes[b])));
-        let mut in_phase = Vec::new();
-        let mut frequencies = Self {
-            plus: f64::NAN,
-            minus: f64::NAN,
-            antiphase: f64::NAN,
-        };
-        for (index, &frequency) in modes.frequencies_hz.iter().enumerate() {
-            if Some(index) == antiphase {
-                frequencies.antiphase = frequency;
-            } else {
-                in_phase.push(frequency);
-            }
-        }
-        if let &[plus, minus] = in_phase.as_slice() {
-            (frequencies.plus, frequencies.minus) = (plus, minus);
-        }
-        Ok(frequencies)
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::{Findings, first_peak};
-    use crate::branched_double::{Apparatus, Friction, Run, Sample, Work};
-
-    /// Creates samples every 0.1 s with these values of H_d.
-    fn samples(energies: &[f64]) -> Vec<Sample> {
-        let apparatus = Apparatus::new(Friction::default()).unwrap();
-        let rest = apparatus.measure(0.0, [0.0; 3], [0.0; 3]);
-        let numbered = energies.iter().enumerate();
-        numbered
-            .map(|(index, &antiphase_energy)| Sample {
-                time: 0.1 * index as f64,
-                antiphase_energy,
-                ..rest
-            })
-            .collect()
-    }
-
-    fn pulses(length: usize, pulses: &[(usize, f64)]) -> Vec<Sample> {
-        let mut energies = vec![0.0; length];
-        for &(at, height) in pulses {
-            energies[at] = height;
-        }
-        samples(&energies)
-    }
-
-    #[test]
-    fn the_first_peak_is_the_first_that_nothing_near_exceeds() {
-        for (case, expected) in [
-            (&[(7, 1.0)][..], Some(7)),
-            // Dwarfed within two seconds, twice.
-            (&[(7, 1.0), (20, 2.0), (38, 3.0)], Some(38)),
-            // The second comes too late.
-            (&[(7, 1.0), (40, 2.0)], Some(7)),
-            (&[(40, 1.0), (30, 2.0)], Some(30)),
-            // Falls from the start, then rises.
-            (&[(0, 5.0), (50, 1.0)], Some(50)),
-            (&[(0, 5.0), (5, 1.0)], None),
-            // Still rising at the end.
-            (&[(98, 1.0), (99, 2.0)], None),
-        ] {
-            assert_eq!(first_peak(&pulses(100, case)), expected, "{case:?}");
-        }
-        assert_eq!(first_peak(&[]), None);
-    }
-
-    #[test]
-    fn a_pendulum_at_rest_has_no_findings() {
-        let run = Run {
-            angle_deg: 0.0,
-            samples: samples(&[0.0; 50]),
-            intervals: vec![Default::default(); 49],
-            work: Work::default(),
-        };
-        let findings = Findings::new(&run);
-        assert_eq!(findings.growth, None);
-        assert_eq!(findings.peak, None);
-        assert_eq!(findings.deviations, [None; 3]);
-        assert_eq!(findings.energy_error, None);
+        let hz = |mode: usize| modes.frequencies_hz.get(mode).copied().unwrap_or(f64::NAN);
+        Ok(Self {
+            plus: hz(0),
+            antiphase: hz(1),
+            minus: hz(2),
+        })
     }
 }

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
 mod branched_double;
+mod experiment;
 mod short;
 mod template;
 
