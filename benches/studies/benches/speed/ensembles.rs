@@ -119,47 +119,38 @@ pub(crate) fn run() {
             Contender::new($name, f64::from(COUNT), || drop(black_box($run)))
         };
     }
-    let of_starts = vec![
-        contender!(
-            "Dop853, one by one",
-            alone.integrate(&dop853, &system, &starts, END)
-        ),
-        contender!(
-            "Dop853 in lanes",
-            alone.integrate_in_lanes(&dop853, &system, &starts, END)
-        ),
-        contender!(
-            "Verner98 in lanes",
-            alone.integrate_in_lanes(&verner98, &system, &starts, END)
-        ),
-        contender!(
-            "Taylor in lanes",
-            alone.integrate_in_lanes(&taylor, &system, &starts, END)
-        ),
-    ];
+    macro_rules! in_lanes {
+        ($system:expr) => {
+            [
+                contender!(
+                    "Dop853 in lanes",
+                    alone.integrate_in_lanes(&dop853, $system, &starts, END)
+                ),
+                contender!(
+                    "Verner98 in lanes",
+                    alone.integrate_in_lanes(&verner98, $system, &starts, END)
+                ),
+                contender!(
+                    "Taylor in lanes",
+                    alone.integrate_in_lanes(&taylor, $system, &starts, END)
+                ),
+            ]
+        };
+    }
+    let mut of_starts = vec![contender!(
+        "Dop853, one by one",
+        alone.integrate(&dop853, &system, &starts, END)
+    )];
+    of_starts.extend(in_lanes!(&system));
     println!(
         "{COUNT} starts over {END} s at 1e-9, one thread: a trajectory\n{}",
         compared(ROUNDS, of_starts)
     );
     let tree = PendulumTree::parse(PAPER).expect("a valid description");
     let tree = AbsoluteAngles(&tree);
-    let of_tree = vec![
-        contender!(
-            "Dop853 in lanes",
-            alone.integrate_in_lanes(&dop853, &tree, &starts, END)
-        ),
-        contender!(
-            "Verner98 in lanes",
-            alone.integrate_in_lanes(&verner98, &tree, &starts, END)
-        ),
-        contender!(
-            "Taylor in lanes",
-            alone.integrate_in_lanes(&taylor, &tree, &starts, END)
-        ),
-    ];
     println!(
         "the same starts of a tree that is read at run time\n{}",
-        compared(ROUNDS, of_tree)
+        compared(ROUNDS, in_lanes!(&tree).into())
     );
     let of_frictions = vec![
         contender!(
