@@ -36,8 +36,10 @@ def emitted(generations, solve, tool):
         source.write(scene)
         source.flush()
         command = [ROOT / "target/release/cargo-branched-pendulum", "stage", "program", source.name]
-        text = subprocess.run(command, check=True, capture_output=True, text=True).stdout
-    return translate(text, tool)
+        ended = subprocess.run(command, capture_output=True, text=True)
+    if ended.returncode != 0:
+        raise RuntimeError(ended.stderr.strip().splitlines()[0])
+    return translate(ended.stdout, tool)
 
 
 def translate(text, tool):
