@@ -65,7 +65,7 @@ def one_motion(equations, tree):
             START, [0.0, END], "taylor", rtol=tolerance
         ).y[-1],
         "Tree, dop853": lambda tolerance: lambda: tree.integrate(
-            START, [0.0, END], rtol=tolerance
+            START, [0.0, END], "dop853", rtol=tolerance
         ).y[-1],
     }
     print(f"{'microseconds to an error of':30}" + "".join(f"{error:9.0e}" for error in ERRORS))
