@@ -20,9 +20,9 @@ impl Method {
     ///
     /// The choice is [`Taylor`](super::Taylor) if the system has Taylor series and is small enough
     /// for the tolerance: up to 20 components at any tolerance, up to 200 at 1e-6 and below, any
-    /// number below 1e-9. Otherwise it is that of [`explicit_pair`](Self::explicit_pair). The limits come
-    /// from the tables of `docs/integrators.md`; `branched-pendulum advise` measures the candidates
-    /// on one machine. The choice does not consider stiff systems, which need
+    /// number below 1e-9. Otherwise it is that of [`explicit_pair`](Self::explicit_pair). The
+    /// limits come from the tables of `docs/integrators.md`; `branched-pendulum advise` measures the
+    /// candidates on one machine. The choice does not consider stiff systems, which need
     /// [`Gauss`](super::Gauss).
     ///
     /// # Examples
@@ -48,7 +48,8 @@ impl Method {
     /// Returns the method that usually takes the least time for many motions that are integrated in
     /// the lanes of vector registers: [`Taylor`](super::Taylor) at 1e-10 and below if the system has
     /// Taylor series and at most 20 components, otherwise that of
-    /// [`explicit_pair`](Self::explicit_pair).
+    /// [`explicit_pair`](Self::explicit_pair). At looser tolerances the pairs are faster at equal
+    /// errors (`docs/integrators.md`, *Many trajectories*).
     pub fn for_lanes<T>(system: &(impl TaylorOde<T> + ?Sized), tolerance: f64) -> Self {
         let series = system.has_series() && system.dimension() <= SMALL_STATE;
         match series && tolerance <= 1e-10 {

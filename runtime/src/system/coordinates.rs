@@ -3,7 +3,6 @@
 use super::function::{At, Computes, functions};
 use super::model::twice;
 use super::ode::halves;
-
 use super::{CastOde, Free, Model, Motion, Ode, Pendulum, Workspace};
 use crate::scalar::Scalar;
 

@@ -74,9 +74,9 @@ fn attachments<S: Scalar>(links: &[LinkNumbers<S>]) -> Vec<S> {
 }
 
 /// Returns all constants of the equations of each link; each form of the equations reads some of
-/// them. The moments follow from the derived equations of one link (`docs/pipeline.md`): M = m (d² +
-/// e²) + I + σ (ℓ² + w²), h = m d + σ ℓ, h⊥ = m e + σ w, S = m + σ, with the mass σ of the child links
-/// that have no children.
+/// them. The moments follow from the derived equations of one link (`docs/pipeline.md`):
+/// M = m (d² + e²) + I + σ (ℓ² + w²), h = m d + σ ℓ, h⊥ = m e + σ w, S = m + σ. Here σ is the total mass of the
+/// child links without children.
 fn all_constants<S: Scalar>(links: &[LinkNumbers<S>], carries: &[bool]) -> Vec<NonViscousRow<S>> {
     let (zero, one) = (S::from_f64(0.0), S::from_f64(1.0));
     let mut rows: Vec<NonViscousRow<S>> = Vec::with_capacity(links.len());
@@ -164,9 +164,11 @@ pub(crate) fn prescribed(links: &[LinkNumbers], carries: &[bool]) -> Vec<Double>
 
 /// Constants of a generation in addition to those of its links.
 struct GenerationConstants {
-    /// Position of the children's pivot on the link.
+    /// Position of the children's pivot along the link, m.
     place_along: Double,
+    /// Position of the children's pivot across the link, m.
     place_across: Double,
+    /// Gravity, m/s².
     gravity: Double,
 }
 
