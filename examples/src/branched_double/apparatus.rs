@@ -32,15 +32,15 @@ pub const PUBLISHED: usize = 0;
 /// Index of the exact form in [`FORMS`].
 pub const EXACT: usize = 2;
 
-/// Number of powers in [`Powers`].
+/// Number of powers in [`AntiphasePowers`].
 pub const POWERS: usize = 7;
 
-/// Powers into the antiphase energy H_d, in W; integrated over time, energies in J: W_K and W_P of
+/// AntiphasePowers into the antiphase energy H_d, in W; integrated over time, energies in J: W_K and W_P of
 /// each of [`FORMS`], and the power of friction.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Powers(pub [f64; POWERS]);
+pub struct AntiphasePowers(pub [f64; POWERS]);
 
-impl Powers {
+impl AntiphasePowers {
     /// Returns the energy transfer W according to the form with this index in [`FORMS`].
     pub fn transfer(&self, form: usize) -> Transfer<f64> {
         let [kinetic, potential] = [2 * form, 2 * form + 1].map(|index| self.0[index]);
@@ -79,10 +79,10 @@ pub struct Sample {
     pub antiphase_energy: f64,
     /// Total energy H, zero if all links hang at rest.
     pub energy: f64,
-    /// Powers into H_d at this time.
-    pub powers: Powers,
+    /// AntiphasePowers into H_d at this time.
+    pub powers: AntiphasePowers,
     /// Integrals of the powers since the release.
-    pub supplied: Powers,
+    pub supplied: AntiphasePowers,
     /// Terms of W's leading order, a quadratic form in (θ_d, p_d): first the two of the published
     /// form, p_d² and the potential part of p_d θ_d; then the two that it lacks, the kinetic part of
     /// p_d θ_d and θ_d².
@@ -91,14 +91,14 @@ pub struct Sample {
 
 impl BranchedDouble {
     /// Computes the powers at coordinates with these rates.
-    pub fn powers(&self, coordinates: &[f64; 3], rates: &[f64; 3]) -> Powers {
+    pub fn powers(&self, coordinates: &[f64; 3], rates: &[f64; 3]) -> AntiphasePowers {
         let momenta = self.symmetric_momenta(coordinates, rates);
         let published = self.transfer_angle_1(coordinates, &momenta);
         let quadratic = self.transfer_amplitude_2(coordinates, &momenta);
         let exact = self.transfer_exact_from_rates(coordinates, rates);
         // A sum, because minus zero would show in tables.
         let friction = 0.0 + self.antiphase_friction_power_from_rates(coordinates, rates);
-        Powers([
+        AntiphasePowers([
             published.kinetic,
             published.potential,
             quadratic.kinetic,
@@ -141,9 +141,9 @@ impl BranchedDouble {
 }
 
 /// Splits a state into coordinates, their rates, and the integrals of the powers.
-pub fn parts(state: &[f64]) -> ([f64; 3], [f64; 3], Powers) {
+pub fn parts(state: &[f64]) -> ([f64; 3], [f64; 3], AntiphasePowers) {
     let at = |index: usize| state.get(index).copied().unwrap_or(f64::NAN);
-    let supplied = Powers(array::from_fn(|index| at(index + 6)));
+    let supplied = AntiphasePowers(array::from_fn(|index| at(index + 6)));
     (
         array::from_fn(at),
         array::from_fn(|index| at(index + 3)),
