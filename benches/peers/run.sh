@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Measures our code and other tools one after the other on this machine: every figure about other tools in
-# docs/performance.md and docs/integrators.md, from one version in one run. The parts `evaluation`, `ensemble` and `trajectories` take
-# four minutes after a release build; `games`, `robots` and `python` build more.
+# docs/performance.md and docs/integrators.md, from one version in one run. The parts `evaluation`, `ensemble`
+# and `trajectories` take four minutes after a release build; `games`, `robots` and `python` build more.
 #
 #     benches/peers/run.sh FOLDER [PART…]
 #

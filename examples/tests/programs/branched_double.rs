@@ -213,7 +213,7 @@ fn check_csv(text: &str) {
     }
 }
 
-/// A scan has bands, a table and a chart of its own, and few of its angles share a chart.
+/// A scan also has bands, a table and a chart of growth; its charts over time show few of its angles.
 #[test]
 fn a_scan_reports_its_bands() {
     let folder = folder("branched-double-scan");
