@@ -282,29 +282,29 @@ impl<'a, T: Scalar, L: TreeLinks> TaylorElimination<'a, T, L> {
         } else {
             forces.of(i) + torque
         };
-        let own = |l: usize| (of_own[1].0[l] * c).plus_product(of_own[0].0[l], x);
         let none = T::from_f64(-0.0);
-        answers[i] = Quad([own(0), own(1), none, none]);
+        answers[i] = Quad([none; 4]);
+        for l in 0..2 {
+            answers[i].0[l] = combined(of_own, l, [x, c]);
+        }
         if i == 0 {
             return;
         }
         let parent = self.links.parent(i);
-        let up = |l: usize| (of_up[1].0[l] * c).plus_product(of_up[0].0[l], x);
-        let pulled = |l: usize| match LEAF {
-            true => up(l),
-            false => up(l)
-                .plus_product(of_pull[0].0[l], f_x)
-                .plus_product(of_pull[1].0[l], f_y),
-        };
         let sum = &mut sums[parent].0;
-        (sum[0], sum[1]) = (sum[0] + pulled(0), sum[1] + pulled(1));
+        for l in 0..2 {
+            let mut up = combined(of_up, l, [x, c]);
+            if !LEAF {
+                up = plus_combined(up, of_pull, l, [f_x, f_y]);
+            }
+            sum[l] = sum[l] + up;
+        }
         if parent > 0 {
-            let [more_x, more_y] = if LEAF {
-                [up(2), up(3)]
-            } else {
-                [up(2) + f_x, up(3) + f_y]
-            };
-            (sum[2], sum[3]) = (sum[2] + more_x, sum[3] + more_y);
+            let [mut up_x, mut up_y] = [combined(of_up, 2, [x, c]), combined(of_up, 3, [x, c])];
+            if !LEAF {
+                (up_x, up_y) = (up_x + f_x, up_y + f_y);
+            }
+            (sum[2], sum[3]) = (sum[2] + up_x, sum[3] + up_y);
         }
     }
 
@@ -335,26 +335,32 @@ impl<'a, T: Scalar, L: TreeLinks> TaylorElimination<'a, T, L> {
         let parent = self.links.parent(i);
         let ([sine, _, a_x, a_y], cosine) = (answers[parent].0, cosines.of(parent));
         let own = &mut answers[i].0;
-        let turned = |own: T, l: usize| {
-            own.plus_product(of_parent[1].0[l], cosine)
-                .plus_product(of_parent[0].0[l], sine)
-        };
-        (own[0], own[1]) = (turned(own[0], 0), turned(own[1], 1));
-        if !LEAF {
-            (own[2], own[3]) = (turned(own[2], 2), turned(own[3], 3));
+        for l in 0..if LEAF { 2 } else { 4 } {
+            own[l] = plus_combined(own[l], of_parent, l, [sine, cosine]);
         }
         // The root's pivot does not move.
         if parent > 0 {
             for l in 0..2 {
-                own[l] = own[l]
-                    .plus_product(of_fall[0].0[l], a_x)
-                    .plus_product(of_fall[1].0[l], a_y);
+                own[l] = plus_combined(own[l], of_fall, l, [a_x, a_y]);
             }
             if !LEAF {
                 (own[2], own[3]) = (own[2] + a_x, own[3] + a_y);
             }
         }
     }
+}
+
+/// Returns component `l` of the sum of two quads, each multiplied by a number.
+#[inline(always)]
+fn combined<T: Scalar>(quads: &[Quad<T>; 2], l: usize, [first, second]: [T; 2]) -> T {
+    (quads[1].0[l] * second).plus_product(quads[0].0[l], first)
+}
+
+/// Adds component `l` of the sum of two quads, each multiplied by a number.
+#[inline(always)]
+fn plus_combined<T: Scalar>(sum: T, quads: &[Quad<T>; 2], l: usize, [first, second]: [T; 2]) -> T {
+    sum.plus_product(quads[1].0[l], second)
+        .plus_product(quads[0].0[l], first)
 }
 
 /// Returns cos θ and sin θ of a link's angle θ at the start.
