@@ -14,6 +14,7 @@ together, since each has a test that sees no other of them. A mutant that its te
 not kill is an error.
 """
 
+import json
 import os
 import re
 import subprocess
@@ -22,17 +23,18 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 
-MECHANICS = ["-p", "branched-pendulum-tests", "--test", "mechanics"]
-FRONT_END = ["-p", "branched-pendulum-compiler-tests", "--test", "front_end"]
-GENERATED = ["-p", "branched-pendulum-tests", "--test", "generated"]
-LINK = ["-p", "branched-pendulum-codegen", "--test", "link"]
-LIBRARY = ["-p", "branched-pendulum", "--lib"]
-RUNTIME = ["-p", "branched-pendulum", "--test", "runtime"]
-INTEGRATORS = ["-p", "branched-pendulum-runtime-tests", "--test", "integrators"]
-DATA = ["-p", "branched-pendulum-data", "--test", "data"]
-MEASURE = ["-p", "branched-pendulum-measure", "--test", "measure"]
-PROGRAM = ["-p", "branched-pendulum-program", "--lib"]
-OUTSIDE = ["-p", "branched-pendulum-tests", "--test", "outside"]
+# Test binaries, by the names of their targets.
+MECHANICS = "mechanics"
+FRONT_END = "front_end"
+GENERATED = "generated"
+LINK = "link"
+LIBRARY = "branched_pendulum"
+RUNTIME = "runtime"
+INTEGRATORS = "integrators"
+DATA = "data"
+MEASURE = "measure"
+PROGRAM = "branched_pendulum_program"
+OUTSIDE = "outside"
 
 BOTH_SOLVES = "solves::both_agree_with_the_oracle_and_each_other"
 DRIVEN = "drive::accelerations_and_power_agree_with_both_oracles"
@@ -231,7 +233,7 @@ EXPRESSIONS = [
      "h.powi(3) / 3.0", "h.powi(3) / 2.0", MEASURE, "dense_regression::white_torques"),
     ("deviations along the first coordinates", f"{R}/analysis/variational/lyapunov.rs",
      "let mut vectors: Vec<f64> = parts.collect();",
-     "let mut vectors: Vec<f64> = DMatrix::identity(dimension, count).as_slice().to_vec();",
+     "let mut vectors: Vec<f64> = nalgebra::DMatrix::identity(dimension, count).as_slice().to_vec();",
      RUNTIME, "exponents::the_paper_s_pendulum_in_phase"),
     ("all deviations for those within a subspace", f"{R}/analysis/variational/deviations.rs",
      "self.keep(vectors, n);", "();", RUNTIME,
@@ -326,14 +328,25 @@ def switched(number, text, mutant):
     return f"(if {test} {{ {mutant} }} else {{ {text} }})"
 
 
-def killers(copy, number, binary, test):
+def build(copy):
+    """Builds all tests of the workspace; the folder of each binary's package, and its file."""
+    command = ["cargo", "test", "--workspace", "--no-run", "--message-format=json"]
+    built = subprocess.run(command, cwd=copy, stdout=subprocess.PIPE, text=True)
+    if built.returncode != 0:
+        sys.exit("the mutants do not compile")
+    messages = map(json.loads, built.stdout.splitlines())
+    return {
+        message["target"]["name"]: (Path(message["manifest_path"]).parent, message["executable"])
+        for message in messages
+        if message["reason"] == "compiler-artifact" and message["profile"]["test"]
+    }
+
+
+def killers(number, folder, executable, test):
     """The tests that fail with this mutant, among those whose names contain `test`."""
     environment = dict(os.environ, MUTANT=str(number), BRANCHED_PENDULUM_CACHE="off")
-    command = ["cargo", "test", *binary, "--", test]
-    run = subprocess.run(command, cwd=copy, env=environment, capture_output=True, text=True)
-    if "error: could not compile" in run.stderr:
-        sys.exit(run.stderr)
-    if "running 0 tests" in run.stdout and "FAILED" not in run.stdout:
+    run = subprocess.run([executable, test], cwd=folder, env=environment, capture_output=True, text=True)
+    if "running 0 tests" in run.stdout:
         sys.exit(f"no test `{test}`")
     failed = re.findall(r"^test (\S+) .*FAILED$", run.stdout, re.MULTILINE)
     if run.returncode != 0 and not failed:
@@ -347,8 +360,8 @@ def run(copy, wanted, all_tests):
     originals = {}
     survivors, alone = [], {}
 
-    def judge(name, number, binary, test):
-        found = killers(copy, number, binary, "" if all_tests else test)
+    def judge(name, number, place, test):
+        found = killers(number, *place, "" if all_tests else test)
         print("killed" if found else "SURVIVED", name, flush=True)
         if all_tests:
             print("".join(f"    {test}\n" for test in found), end="", flush=True)
@@ -367,8 +380,9 @@ def run(copy, wanted, all_tests):
             originals.setdefault(file, content)
             number = 1 + [m[0] for m in EXPRESSIONS].index(name)
             (copy / file).write_text(content.replace(text, switched(number, text, mutant)))
+        binaries = build(copy) if chosen else {}
         for name, _, _, _, binary, test in chosen:
-            judge(name, 1 + [m[0] for m in EXPRESSIONS].index(name), binary, test)
+            judge(name, 1 + [m[0] for m in EXPRESSIONS].index(name), binaries[binary], test)
     finally:
         for file, content in originals.items():
             (copy / file).write_text(content)
@@ -377,8 +391,9 @@ def run(copy, wanted, all_tests):
         for _, file, text, mutant, *_ in constants:
             originals[file] = source(copy, file, text)
             (copy / file).write_text(originals[file].replace(text, mutant))
+        binaries = build(copy) if constants else {}
         for name, _, _, _, binary, test in constants:
-            judge(name, 0, binary, test)
+            judge(name, 0, binaries[binary], test)
     finally:
         for file, content in originals.items():
             (copy / file).write_text(content)
