@@ -105,7 +105,7 @@ impl<'a, T: Real> CrossingSearch<'a, T> {
     #[allow(clippy::type_complexity)]
     pub(in crate::integrate) fn visit<E>(
         &mut self,
-        step: &mut impl SearchedStep<T>,
+        step: &mut dyn SearchedStep<T>,
         visit: &mut impl FnMut(Occurrence<'_, T>) -> Result<ControlFlow<()>, E>,
     ) -> Result<Option<(T, Result<(), E>)>, SearchError<T>> {
         self.step(step)?;
@@ -143,7 +143,7 @@ impl<'a, T: Real> CrossingSearch<'a, T> {
     fn meet(
         &mut self,
         first: usize,
-        step: &mut impl SearchedStep<T>,
+        step: &mut dyn SearchedStep<T>,
     ) -> Result<(T, usize), SearchError<T>> {
         let start = self.found[first].time;
         let near = rounding(ONE_TIME, start);
@@ -181,7 +181,7 @@ impl<'a, T: Real> CrossingSearch<'a, T> {
         first: usize,
         next: &mut usize,
         time: T,
-        step: &mut impl SearchedStep<T>,
+        step: &mut dyn SearchedStep<T>,
     ) -> Result<bool, SearchError<T>> {
         let mut all = true;
         for index in first..self.found.len() {
@@ -211,7 +211,7 @@ impl<'a, T: Real> CrossingSearch<'a, T> {
     }
 
     /// Finds the crossings within `step`, in the order of the run.
-    fn step(&mut self, step: &mut impl SearchedStep<T>) -> Result<(), SearchError<T>> {
+    fn step(&mut self, step: &mut dyn SearchedStep<T>) -> Result<(), SearchError<T>> {
         self.found.clear();
         let [start, end] = step.ends();
         for index in 0..self.events.len() {
@@ -252,7 +252,7 @@ impl<'a, T: Real> CrossingSearch<'a, T> {
         &mut self,
         event: usize,
         time: T,
-        step: &mut impl SearchedStep<T>,
+        step: &mut dyn SearchedStep<T>,
     ) -> Result<T, SearchError<T>> {
         step.value(time, &mut self.state)?;
         let value = (self.events[event].function)(time, &self.state);
@@ -270,7 +270,7 @@ impl<'a, T: Real> CrossingSearch<'a, T> {
         event: usize,
         left: EventSample<T>,
         right: T,
-        step: &mut impl SearchedStep<T>,
+        step: &mut dyn SearchedStep<T>,
     ) -> Result<EventSample<T>, SearchError<T>> {
         if left.value != T::ZERO {
             return Ok(left);
@@ -292,7 +292,7 @@ impl<'a, T: Real> CrossingSearch<'a, T> {
         event: usize,
         left: EventSample<T>,
         right: EventSample<T>,
-        step: &mut impl SearchedStep<T>,
+        step: &mut dyn SearchedStep<T>,
     ) -> Result<(), SearchError<T>> {
         let rising = left.value < T::ZERO && right.value >= T::ZERO;
         let falling = left.value > T::ZERO && right.value <= T::ZERO;
@@ -323,7 +323,7 @@ impl<'a, T: Real> CrossingSearch<'a, T> {
         event: usize,
         mut left: EventSample<T>,
         mut right: EventSample<T>,
-        step: &mut impl SearchedStep<T>,
+        step: &mut dyn SearchedStep<T>,
     ) -> Result<T, SearchError<T>> {
         let half = T::from_f64(0.5);
         let negative = left.value < T::ZERO;
