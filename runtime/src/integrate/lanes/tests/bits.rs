@@ -4,7 +4,7 @@ use core::num::NonZeroUsize;
 use core::slice::from_ref;
 
 use super::{Cases, END, Each, LaneMethod, LopsidedOde, assert_same, lopsided, outcomes};
-use super::{starts, times, with_each};
+use super::{starts, times, with_each, with_each_kind};
 use crate::ensemble::Ensemble;
 use crate::integrate::{Dop853, Options, Taylor};
 use crate::scalar::{InstructionSet, Lane};
@@ -52,7 +52,7 @@ fn bits_depend_on_the_start_alone() {
     with_each(&double, &mut NeitherPlaceNorNeighbours);
     NeitherPlaceNorNeighbours.each(&Taylor::new(double).with_order(9));
     let single = Options::with_tolerance(1e-4_f32);
-    with_each(&single, &mut NeitherPlaceNorNeighbours);
+    with_each_kind(&single, &mut NeitherPlaceNorNeighbours);
 }
 
 #[test]

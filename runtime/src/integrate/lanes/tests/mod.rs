@@ -39,6 +39,15 @@ fn with_each<T: Lane>(options: &Options<T>, work: &mut impl Each<T>) {
     });
 }
 
+/// Does it with one method of each kind. This is enough for `f32`: the pairs differ in their tables
+/// alone, and each method is compiled once more for every scalar and every set of instructions.
+fn with_each_kind<T: Lane>(options: &Options<T>, work: &mut impl Each<T>) {
+    work.each(&Dop853::new(options.clone()));
+    work.each(&Taylor::new(options.clone()));
+    work.each(&rk4(options.step_limit));
+    work.each(&gauss(GaussOrder::Six, options.step_limit));
+}
+
 /// Does it with all methods whose bits backwards are those forwards. Newton's method takes
 /// differences in one direction.
 fn with_mirrored<T: Lane>(options: &Options<T>, work: &mut impl Each<T>) {

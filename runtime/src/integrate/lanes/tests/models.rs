@@ -7,7 +7,7 @@ use super::failures::stop_of_both;
 use super::{
     AbsoluteAngles, Cases, END, Each, Integrator, LaneMethod, Lopsided, LopsidedOde, assert_same,
 };
-use super::{outcomes, plain, starts, times, with_each};
+use super::{outcomes, plain, starts, times, with_each, with_each_kind};
 use crate::ensemble::Ensemble;
 use crate::integrate::{Dop853, InputError, IntegrationError, Options, StopReason};
 use crate::scalar::{InstructionSet, Lane, Scalar};
@@ -71,7 +71,7 @@ fn bits_are_those_of_the_model_alone() {
     let double = Options::with_tolerance(1e-8);
     with_each(&double, &mut BitsAreThoseOfTheModelAlone);
     let single = Options::with_tolerance(1e-4_f32);
-    with_each(&single, &mut BitsAreThoseOfTheModelAlone);
+    with_each_kind(&single, &mut BitsAreThoseOfTheModelAlone);
 }
 
 struct TimesAreThoseOfTheModelAlone;
@@ -104,7 +104,7 @@ fn times_are_those_of_the_model_alone() {
     let double = Options::with_tolerance(1e-8);
     with_each(&double, &mut TimesAreThoseOfTheModelAlone);
     let single = Options::with_tolerance(1e-4_f32);
-    with_each(&single, &mut TimesAreThoseOfTheModelAlone);
+    with_each_kind(&single, &mut TimesAreThoseOfTheModelAlone);
 }
 
 struct ThePlainMethodStopsAlike(Vec<StopReason>);
