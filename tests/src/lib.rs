@@ -9,6 +9,7 @@ pub mod bodies;
 pub mod oracle;
 pub mod promised;
 pub mod reference;
+pub mod samples;
 pub mod scenes;
 
 /// The front page compiles and holds.
