@@ -1,14 +1,14 @@
 //! Springs and friction between links that are not parent and child.
 
 use branched_pendulum::analysis::variational::Copies;
-use branched_pendulum::ensemble::Ensemble;
 use branched_pendulum::prelude::*;
 use branched_pendulum::sectors::{Normalisation, Sectors};
-use branched_pendulum::system::{CanonicalVariables, Workspace};
+use branched_pendulum::system::Workspace;
 use branched_pendulum::transfer::StateInput;
 use branched_pendulum::{Transfer, TransferForm};
 use branched_pendulum_trees::{PendulumTree, TreeError};
 
+use super::balance::{self, END};
 use super::plain::{Numbers, PlainTree};
 
 /// The order of links of a plain tree in the described one.
@@ -98,86 +98,30 @@ fn energy_is_balanced_in_every_form() {
         ],
         siblings(b, spring = 0.4), siblings(c, spring = 0.2), between(a, c_2_1, spring = 0.3, rest = 0.4)";
     let tree = PendulumTree::parse(text).unwrap();
-    let links = tree.links();
-    let mut numbers = Numbers(3);
-    let values: Vec<f64> = (0..2 * links)
-        .map(|place| numbers.between(-1.0, 1.0) * if place < links { 2.0 } else { 4.0 })
-        .collect();
-    let start = State::new(0.0, values.clone());
-    let first = tree.energy_of(start.positions(), start.velocities());
-    let drift =
-        |state: &State<f64>| (tree.energy_of(state.positions(), state.velocities()) - first).abs();
-    let method = Dop853::new(Options::with_tolerance(1e-14));
-    let end = method
-        .run(&AbsoluteAngles(&tree), &start, 10.0)
-        .unwrap()
-        .state;
-    assert!(drift(&end) < 1e-10, "{:e}", drift(&end));
+    let start = balance::state(&tree, 3, 2.0);
+    balance::assert_energy_is_kept(&tree, &start);
     let taylor = Taylor::new(Options::with_tolerance(1e-14));
-    let by_series = taylor
-        .run(&AbsoluteAngles(&tree), &start, 10.0)
-        .unwrap()
-        .state;
-    assert!(drift(&by_series) < 1e-10, "{:e}", drift(&by_series));
-    let momenta = tree.momenta(start.positions(), start.velocities());
-    let canonical = State::new(0.0, [start.positions(), &momenta].concat());
-    let system = CanonicalVariables(&tree);
-    let end = method.run(&system, &canonical, 10.0).unwrap();
-    let (theta, momenta) = end.state.values.split_at(links);
-    let [mut omega, mut rates] = [(); 2].map(|()| vec![0.0; links]);
-    tree.canonical_rates_into(0.0, theta, momenta, &mut omega, &mut rates);
-    let moved = State::new(0.0, [theta, &omega].concat());
-    assert!(drift(&moved) < 1e-10, "{:e}", drift(&moved));
-    let plain = Normalisation::Plain;
-    let mut coordinates = values.clone();
-    for (own, absolute) in coordinates.chunks_mut(links).zip(values.chunks(links)) {
+    let end = taylor.run(&AbsoluteAngles(&tree), &start, END);
+    balance::assert_same_energy(&tree, &start, &end.unwrap().state);
+    let (links, plain) = (tree.links(), Normalisation::Plain);
+    let mut coordinates = start.clone();
+    let absolute = start.values.chunks(links);
+    for (own, absolute) in coordinates.values.chunks_mut(links).zip(absolute) {
         tree.symmetric_from_absolute(plain, absolute, own);
     }
-    let system = SymmetricCoordinates(&tree);
-    let end = method.run(&system, &State::new(0.0, coordinates), 10.0);
-    let mut moved = State::new(0.0, values.clone());
+    let end = balance::method().run(&SymmetricCoordinates(&tree), &coordinates, END);
+    let mut moved = start.clone();
     let end = end.unwrap().state.values;
     for (own, coordinates) in moved.values.chunks_mut(links).zip(end.chunks(links)) {
         tree.absolute_from_symmetric(plain, coordinates, own);
     }
-    assert!(drift(&moved) < 1e-10, "{:e}", drift(&moved));
-    let lanes = vec![(AbsoluteAngles(&tree), start.clone()); 5];
-    for moved in Ensemble::new().integrate_models_in_lanes(&method, &lanes, 10.0) {
-        let state = moved.unwrap().state;
-        assert!(drift(&state) < 1e-10, "{:e}", drift(&state));
-    }
+    balance::assert_same_energy(&tree, &start, &moved);
     // What friction takes.
     let braked = text.replace(
         "rest = 0.4)",
         "rest = 0.4, friction(viscous = 1e-3, coulomb = 0.02, static = 0.03, stribeck = 1.1, width = 0.3))",
     );
-    let tree = PendulumTree::parse(&braked).unwrap();
-    let system = WithLoss(&tree);
-    let start = State::new(0.0, [values, vec![0.0; 2]].concat());
-    let end = method.run(&system, &start, 10.0).unwrap().state.values;
-    let energy = tree.energy_of(&end[..links], &end[links..2 * links]);
-    let balance = energy - first - end[2 * links];
-    assert!(
-        end[2 * links] < -0.01 && balance.abs() < 1e-10,
-        "{balance:e}"
-    );
-}
-
-/// The motion, and the work of friction.
-struct WithLoss<'a>(&'a PendulumTree);
-
-impl Ode<f64> for WithLoss<'_> {
-    fn dimension(&self) -> usize {
-        2 * self.0.links() + 2
-    }
-
-    fn rates(&self, time: f64, state: &[f64], rates: &mut [f64]) {
-        let links = self.0.links();
-        let (theta, omega) = (&state[..links], &state[links..2 * links]);
-        rates[..links].copy_from_slice(omega);
-        rates[links..2 * links].copy_from_slice(&self.0.accelerations(time, theta, omega));
-        rates[2 * links..].copy_from_slice(&[self.0.friction_power(theta, omega), 0.0]);
-    }
+    balance::assert_friction_takes(&PendulumTree::parse(&braked).unwrap(), &start, 0.01);
 }
 
 /// In the binary tree of three generations every order of W closes on the exact one, and a

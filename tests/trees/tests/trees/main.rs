@@ -3,6 +3,7 @@
 // Methods for trees at run time that it has compiled are taken from there.
 use branched_pendulum_advice as _;
 
+mod balance;
 mod between;
 mod canonical;
 mod costs;

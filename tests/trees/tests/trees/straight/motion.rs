@@ -1,76 +1,24 @@
 //! Motions, modes and configurations of trees with straight springs.
 
 use branched_pendulum::analysis::Modes;
-use branched_pendulum::ensemble::Ensemble;
 use branched_pendulum::prelude::*;
-use branched_pendulum::system::CanonicalVariables;
 use branched_pendulum_trees::PendulumTree;
 
+use super::super::balance;
 use super::super::plain::Numbers;
 use super::GUYED;
-
-/// A tree, and the work of friction as one more number of the state.
-struct WithLoss<'a>(&'a PendulumTree);
-
-impl Ode<f64> for WithLoss<'_> {
-    fn dimension(&self) -> usize {
-        2 * self.0.links() + 2
-    }
-
-    fn rates(&self, time: f64, state: &[f64], rates: &mut [f64]) {
-        let links = self.0.links();
-        let (theta, omega) = state[..2 * links].split_at(links);
-        rates[..links].copy_from_slice(omega);
-        rates[links..2 * links].copy_from_slice(&self.0.accelerations(time, theta, omega));
-        rates[2 * links..].copy_from_slice(&[self.0.friction_power(theta, omega), 0.0]);
-    }
-}
 
 /// Springs alone keep the energy in every form of the equations, and dampers take what their
 /// power says.
 #[test]
 fn energy_is_balanced_in_every_form() {
     let tree = PendulumTree::parse(GUYED).unwrap();
-    let links = tree.links();
-    let mut numbers = Numbers(5);
-    let values: Vec<f64> = (0..2 * links)
-        .map(|place| numbers.between(-1.0, 1.0) * if place < links { 1.5 } else { 4.0 })
-        .collect();
-    let start = State::new(0.0, values.clone());
-    let first = tree.energy_of(start.positions(), start.velocities());
-    let drift =
-        |state: &State<f64>| (tree.energy_of(state.positions(), state.velocities()) - first).abs();
-    let method = Dop853::new(Options::with_tolerance(1e-14));
-    let end = method.run(&AbsoluteAngles(&tree), &start, 10.0);
-    let end = end.unwrap().state;
-    assert!(drift(&end) < 1e-10, "{:e}", drift(&end));
-    let momenta = tree.momenta(start.positions(), start.velocities());
-    let canonical = State::new(0.0, [start.positions(), &momenta].concat());
-    let system = CanonicalVariables(&tree);
-    let end = method.run(&system, &canonical, 10.0).unwrap();
-    let (theta, momenta) = end.state.values.split_at(links);
-    let [mut omega, mut rates] = [(); 2].map(|()| vec![0.0; links]);
-    tree.canonical_rates_into(0.0, theta, momenta, &mut omega, &mut rates);
-    let moved = State::new(0.0, [theta, &omega].concat());
-    assert!(drift(&moved) < 1e-10, "{:e}", drift(&moved));
-    let lanes = vec![(AbsoluteAngles(&tree), start.clone()); 5];
-    for moved in Ensemble::new().integrate_models_in_lanes(&method, &lanes, 10.0) {
-        let state = moved.unwrap().state;
-        assert!(drift(&state) < 1e-10, "{:e}", drift(&state));
-    }
+    let start = balance::state(&tree, 5, 1.5);
+    balance::assert_energy_is_kept(&tree, &start);
     let braked = GUYED.replace("rest = 0.3)", "rest = 0.3, friction = 0.2)");
     let braked = braked.replace("spring = 5)", "friction = 0.05)");
     let tree = PendulumTree::parse(&braked).unwrap();
-    let start = State::new(0.0, [values, vec![0.0; 2]].concat());
-    let first = tree.energy_of(&start.values[..links], &start.values[links..2 * links]);
-    let end = method.run(&WithLoss(&tree), &start, 10.0);
-    let end = end.unwrap().state.values;
-    let energy = tree.energy_of(&end[..links], &end[links..2 * links]);
-    let lost = end[2 * links];
-    assert!(
-        lost < -0.1 && (energy - first - lost).abs() < 1e-10,
-        "{lost} {energy} {first}"
-    );
+    let end = balance::assert_friction_takes(&tree, &start, 0.1);
     // Without dampers it is the tree that keeps its energy.
     let conservative = tree.conservative().unwrap();
     assert!(
@@ -79,7 +27,7 @@ fn energy_is_balanced_in_every_form() {
             .iter()
             .all(|own| own.friction.is_none())
     );
-    let (theta, omega) = (&end[..links], &end[links..2 * links]);
+    let (theta, omega) = (end.positions(), end.velocities());
     assert_eq!(conservative.friction_power(theta, omega), 0.0);
     assert_eq!(
         conservative.potential_energy_of(theta),
