@@ -158,7 +158,7 @@ fn accepted_values_have_finite_accelerations() {
     let mut random = Random(3);
     for text in [PARAMETRIC, STRAIGHT, RULE] {
         let (mut accepted, mut refused) = (0, 0);
-        for count in 0..3_000 {
+        for count in 0..1_200 {
             let spread = [3.0, 30.0, 300.0][count % 3];
             let changes: Vec<f64> = USUAL
                 .iter()
@@ -188,6 +188,6 @@ fn accepted_values_have_finite_accelerations() {
             );
         }
         println!("{accepted} accepted, {refused} refused");
-        assert!(accepted > 1_000 && refused > 300, "{accepted} {refused}");
+        assert!(accepted > 400 && refused > 120, "{accepted} {refused}");
     }
 }

@@ -24,7 +24,7 @@ fn is_same(scene: &Scene, one: &[f64], other: &[f64]) -> bool {
 fn equilibria_of_random_trees_with_springs() {
     let mut random = Random(48);
     let (mut saddles, mut several, mut lowest, mut unstable_zero) = (0, 0, 0, 0);
-    const TREES: usize = 200;
+    const TREES: usize = 100;
     for number in 0..TREES {
         let scene = Scene::random(&mut random);
         let text = scene.text();
@@ -87,7 +87,7 @@ fn equilibria_of_random_trees_with_springs() {
     }
     // The trees are of all kinds, and nearly always the lowest minimum is among those found.
     assert!(
-        saddles > 20 && several > 20,
+        saddles > 10 && several > 10,
         "{saddles} {several} {unstable_zero}"
     );
     assert!(lowest >= TREES * 97 / 100, "{lowest}");
