@@ -223,7 +223,7 @@ fn mutate(count: usize) {
 
 #[test]
 fn mutated_descriptions_give_a_scene_or_messages() {
-    mutate(2_500);
+    mutate(1_000);
 }
 
 #[test]
