@@ -4,7 +4,7 @@ use branched_pendulum_codegen::expand;
 use branched_pendulum_compiler_tests::source::{attributed_struct, fixture};
 
 #[test]
-fn a_hundred_expansions_are_equal() {
+fn repeated_expansions_are_equal() {
     for name in [
         "paper", "triplet", "unequal", "offset", "sweep", "driven", "observed",
     ] {
@@ -12,7 +12,7 @@ fn a_hundred_expansions_are_equal() {
             .expect("the fixture exists");
         let (attribute, item) = attributed_struct(&source);
         let first = expand(attribute.clone(), item.clone()).to_string();
-        for _ in 0..14 {
+        for _ in 0..4 {
             assert_eq!(expand(attribute.clone(), item.clone()).to_string(), first);
         }
     }

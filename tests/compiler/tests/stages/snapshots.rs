@@ -9,20 +9,24 @@ pub(super) fn pretty(tokens: TokenStream) -> String {
 
 /// The emitted function of that name, with its docs.
 pub(super) fn function(tokens: &TokenStream, name: &str) -> String {
+    let all = emitted_functions(tokens).into_iter();
+    let mut named = all.filter(|function| function.sig.ident == name);
+    let function = named.next().unwrap_or_else(|| panic!("no function {name}"));
+    pretty(quote::quote!(impl Model { #function }))
+}
+
+/// All functions in the `impl` blocks of emitted code, in their order.
+pub(super) fn emitted_functions(tokens: &TokenStream) -> Vec<syn::ImplItemFn> {
     let file: syn::File = syn::parse2(tokens.clone()).expect("emitted code is Rust");
-    for item in file.items {
-        let syn::Item::Impl(block) = item else {
-            continue;
-        };
-        for member in block.items {
-            if let syn::ImplItem::Fn(function) = member
-                && function.sig.ident == name
-            {
-                return pretty(quote::quote!(impl Model { #function }));
-            }
-        }
-    }
-    panic!("no function {name}");
+    let blocks = file.items.into_iter().filter_map(|item| match item {
+        syn::Item::Impl(block) => Some(block.items),
+        _ => None,
+    });
+    let functions = blocks.flatten().filter_map(|member| match member {
+        syn::ImplItem::Fn(function) => Some(function),
+        _ => None,
+    });
+    functions.collect()
 }
 
 fn stages_of(name: &str) {
