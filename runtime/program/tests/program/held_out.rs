@@ -122,7 +122,7 @@ fn what_was_not_fitted_is_predicted_and_energies_follow_from_parameters() {
         .map(|(name, value)| format!("{name}={value}"))
         .join(",");
     let set = ["--set", &set];
-    let printed = folder.answer(&[&analyse[..], &set].concat());
+    let printed = folder.answer(&[&analyse[..], &set, &["--to", "5"]].concat());
     assert!(
         printed.starts_with("The energy budget does not close"),
         "{printed}"

@@ -38,7 +38,7 @@ pub(super) fn tree() -> PendulumTree {
 /// Writes a tree, and angles of its links with noise of 1 mrad, 100 a second.
 pub(super) fn measured(name: &str) -> (PathBuf, PathBuf) {
     let tree = tree();
-    let times: Vec<f64> = (0..800).map(|row| f64::from(row) / 100.0).collect();
+    let times: Vec<f64> = (0..500).map(|row| f64::from(row) / 100.0).collect();
     let start = State::at_rest(0.0, &[0.5, -0.2, 0.3]);
     let method = Dop853::new(Options::with_tolerance(1e-11));
     let motion = method.sample_to_vec(&AbsoluteAngles(&tree), &start, &times);

@@ -116,7 +116,7 @@ fn interrupt(child: &Child) {
     assert!(sent.unwrap().success());
 }
 
-/// At ten moments of each subcommand, from its first instant to its end. The ten runs of
+/// At five moments of each subcommand, from its first instant to its end. The five runs of
 /// one go side by side: most of their time is waiting.
 #[test]
 fn ctrl_c_keeps_what_is_finished_and_leaves_nothing_half_written() {
@@ -127,7 +127,7 @@ fn ctrl_c_keeps_what_is_finished_and_leaves_nothing_half_written() {
     let mut random = SplitMix64::seed_from_u64(2026);
     for program in &SUBCOMMANDS {
         std::thread::scope(|scope| {
-            for moment in 0..10 {
+            for moment in 0..5 {
                 // Moments spread over many sizes: subcommands take from 0.1 s to minutes.
                 let share = random.next_u64() as f64 / u64::MAX as f64;
                 let after = Duration::from_secs_f64(0.02 * 60.0_f64.powf(share));
@@ -262,7 +262,7 @@ fn two_runs_never_mix_in_a_folder() {
     });
     assert!(alone[0] != alone[1]);
     let mut refusals = 0;
-    for pair in 0..50 {
+    for pair in 0..20 {
         let folder = folder(&format!("together-{pair}"));
         let started = ANGLES.map(|angle| run(angle, &folder).spawn().unwrap());
         let [first, second] = started.map(|child| child.wait_with_output().unwrap());

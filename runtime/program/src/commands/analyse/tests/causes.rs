@@ -291,34 +291,46 @@ fn wrong_pictures_are_named() {
     }
 }
 
-/// What no other reading mends is not blamed on the reading: friction is called so, and other
-/// constants have no cause.
-#[test]
-fn other_pendulums_have_no_cause_among_the_readings() {
-    const APPARATUS: &str = "--tree apparatus --set viscous_1=0,viscous_2=0";
-    for (real, angle, expected) in [
-        ("--real viscous_2=1e-4", 75.0, Some("--set viscous_2=")),
-        ("--real viscous_2=3e-4", 60.0, Some("--set viscous_2=")),
-        ("--real joint_1=0.29", 75.0, None),
-    ] {
-        let text = camera(real, angle, 2).table(RADIANS[1], |_, a| a.to_vec());
-        let (verdict, closing) = judge(&text, APPARATUS);
-        assert!(!verdict.closes(), "{real:?}");
-        assert_begins(&closing, expected, real);
-    }
+/// Asserts that the budget of another pendulum than the assumed one of the paper does not close, and
+/// what the first advice begins with.
+fn assert_other_pendulum(real: &str, angle: f64, expected: Option<&str>) {
+    let text = camera(real, angle, 2).table(RADIANS[1], |_, a| a.to_vec());
+    let (verdict, closing) = judge(&text, "--tree apparatus --set viscous_1=0,viscous_2=0");
+    assert!(!verdict.closes(), "{real:?}");
+    assert_begins(&closing, expected, real);
+}
+
+/// Asserts the same of chains with 1.2, 1.05 and 3 times a constant that is assumed, from these
+/// starts.
+fn assert_other_chains(starts: &[([f64; 2], u64)]) {
     for (real, expected) in [
-        // 1.2, 1.05 and 3 times what is assumed.
         ("--real mass_2=0.165115164", None),
         ("--real joint_1=0.1813551642", None),
         ("--real viscous_1=7.11428349e-4", Some("--set viscous_1=")),
     ] {
-        for (start, seed) in STARTS.iter().zip(1..) {
-            let text = chain(real, *start, seed).table(RADIANS[0], |_, a| a.to_vec());
+        for (start, seed) in starts {
+            let text = chain(real, *start, *seed).table(RADIANS[0], |_, a| a.to_vec());
             let (verdict, closing) = judge(&text, CHAIN);
             assert!(!verdict.closes(), "{real}");
             assert_begins(&closing, expected, real);
         }
     }
+}
+
+/// What no other reading mends is not blamed on the reading: friction is called so, and other
+/// constants have no cause.
+#[test]
+fn other_pendulums_have_no_cause_among_the_readings() {
+    assert_other_pendulum("--real viscous_2=1e-4", 75.0, Some("--set viscous_2="));
+    assert_other_chains(&[(STARTS[0], 1)]);
+}
+
+#[test]
+#[ignore = "`.ci/more` runs it"]
+fn also_of_other_pendulums_no_reading_is_the_cause() {
+    assert_other_pendulum("--real viscous_2=3e-4", 60.0, Some("--set viscous_2="));
+    assert_other_pendulum("--real joint_1=0.29", 75.0, None);
+    assert_other_chains(&[(STARTS[1], 2), (STARTS[2], 3)]);
 }
 
 fn assert_begins(closing: &[String], expected: Option<&str>, real: &str) {
