@@ -146,7 +146,7 @@ fn largest_of(trees: u64, intervals: u32) {
 
 #[test]
 fn one_exponent_is_the_largest_of_all() {
-    largest_of(4, 300);
+    largest_of(3, 300);
 }
 
 /// Half an hour: `cargo test -p branched-pendulum-optimised-tests --test run_time -- --ignored
