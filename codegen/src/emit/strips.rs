@@ -141,12 +141,13 @@ impl Emission<'_> {
                     &self,
                     workspace: &mut #runtime::system::Workspace<T>,
                     #time: T,
-                    [theta, omega]: [&[T]; 2],
+                    given: [&[T]; 2],
                     alpha: &mut [T],
                 ) {
+                    let [theta, omega] = given;
                     let torques = ::core::option::Option::None;
-                    let given = #runtime::tree::LinkStates { theta, omega, torques };
-                    self.tree.evaluate_apart(workspace, #drive, given, alpha);
+                    let states = #runtime::tree::LinkStates { theta, omega, torques };
+                    self.tree.evaluate_apart(workspace, #drive, states, alpha);
                 }
 
                 fn accelerations_into(
