@@ -70,7 +70,7 @@ fn a_record_repeats_the_run() {
 fn a_record_of_other_input_is_refused() {
     const ROD: &str = "gravity = 9.80665,\nrod: rod(mass = 0.2, length = 0.3, friction = c)\n";
     let folder = Folder::new("repeated-input");
-    let rows = (0..400).map(|row| {
+    let rows = (0..120).map(|row| {
         let time = f64::from(row) * 0.01;
         format!(
             "{time:.2},{:.6}\n",
