@@ -9,7 +9,8 @@
                                     kill it, and then the tests that are the only ones for a mutant
 
 A run puts all mutants of expressions into COPY at once, each behind a switch that the
-environment sets, and so builds every test binary once; mutants of constants are built
+environment sets, and so builds every test binary once. A binary whose tests see emitted code
+alone is built once more for each mutant of the compiler. Mutants of constants are built
 together, since each has a test that sees no other of them. A mutant that its test does
 not kill is an error.
 """
@@ -35,6 +36,9 @@ DATA = "data"
 MEASURE = "measure"
 PROGRAM = "branched_pendulum_program"
 OUTSIDE = "outside"
+LIBRARIES = {LIBRARY, PROGRAM}
+# Sees mutants of the compiler only in code that was emitted with them.
+EMITTED = {OUTSIDE}
 
 BOTH_SOLVES = "solves::both_agree_with_the_oracle_and_each_other"
 DRIVEN = "drive::accelerations_and_power_agree_with_both_oracles"
@@ -328,10 +332,12 @@ def switched(number, text, mutant):
     return f"(if {test} {{ {mutant} }} else {{ {text} }})"
 
 
-def build(copy):
-    """Builds all tests of the workspace; the folder of each binary's package, and its file."""
-    command = ["cargo", "test", "--workspace", "--no-run", "--message-format=json"]
-    built = subprocess.run(command, cwd=copy, stdout=subprocess.PIPE, text=True)
+def build(copy, binaries, number=0):
+    """Builds test binaries; the folder of each one's package, and its file. Macros expand with mutant `number`."""
+    targets = [["--lib"] if name in LIBRARIES else ["--test", name] for name in sorted(binaries)]
+    command = ["cargo", "test", "--workspace", *sum(targets, []), "--no-run", "--message-format=json"]
+    environment = dict(os.environ, MUTANT=str(number), BRANCHED_PENDULUM_CACHE="off")
+    built = subprocess.run(command, cwd=copy, env=environment, stdout=subprocess.PIPE, text=True)
     if built.returncode != 0:
         sys.exit("the mutants do not compile")
     messages = map(json.loads, built.stdout.splitlines())
@@ -340,6 +346,14 @@ def build(copy):
         for message in messages
         if message["reason"] == "compiler-artifact" and message["profile"]["test"]
     }
+
+
+def expanded(copy, number, binary):
+    """Builds a test binary once more, whose emitted code has mutant `number`."""
+    for folder in ["tests/src", f"tests/tests/{binary}"]:
+        for source in (copy / folder).rglob("*.rs"):
+            source.touch()
+    return build(copy, [binary], number)[binary]
 
 
 def killers(number, folder, executable, test):
@@ -352,6 +366,12 @@ def killers(number, folder, executable, test):
     if run.returncode != 0 and not failed:
         failed = ["(the process ended)"]
     return failed
+
+
+def is_emitted(mutant):
+    """True if the mutant's test sees it in emitted code alone."""
+    _, file, _, _, binary, _ = mutant
+    return binary in EMITTED and file.startswith(C)
 
 
 def run(copy, wanted, all_tests):
@@ -380,9 +400,14 @@ def run(copy, wanted, all_tests):
             originals.setdefault(file, content)
             number = 1 + [m[0] for m in EXPRESSIONS].index(name)
             (copy / file).write_text(content.replace(text, switched(number, text, mutant)))
-        binaries = build(copy) if chosen else {}
-        for name, _, _, _, binary, test in chosen:
-            judge(name, 1 + [m[0] for m in EXPRESSIONS].index(name), binaries[binary], test)
+        binaries = build(copy, {m[4] for m in chosen}) if chosen else {}
+        # Those that are built anew come last.
+        chosen.sort(key=is_emitted)
+        for name, file, text, mutant, binary, test in chosen:
+            number = 1 + [m[0] for m in EXPRESSIONS].index(name)
+            own = is_emitted((name, file, text, mutant, binary, test))
+            place = expanded(copy, number, binary) if own else binaries[binary]
+            judge(name, number, place, test)
     finally:
         for file, content in originals.items():
             (copy / file).write_text(content)
@@ -391,7 +416,7 @@ def run(copy, wanted, all_tests):
         for _, file, text, mutant, *_ in constants:
             originals[file] = source(copy, file, text)
             (copy / file).write_text(originals[file].replace(text, mutant))
-        binaries = build(copy) if constants else {}
+        binaries = build(copy, {m[4] for m in constants}) if constants else {}
         for name, _, _, _, binary, test in constants:
             judge(name, 0, binaries[binary], test)
     finally:
