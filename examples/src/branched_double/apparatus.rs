@@ -35,7 +35,7 @@ pub const EXACT: usize = 2;
 /// Number of powers in [`AntiphasePowers`].
 pub const POWERS: usize = 7;
 
-/// AntiphasePowers into the antiphase energy H_d, in W; integrated over time, energies in J: W_K and W_P of
+/// Powers into the antiphase energy H_d, in W; integrated over time, energies in J: W_K and W_P of
 /// each of [`FORMS`], and the power of friction.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct AntiphasePowers(pub [f64; POWERS]);
@@ -79,7 +79,7 @@ pub struct Sample {
     pub antiphase_energy: f64,
     /// Total energy H, zero if all links hang at rest.
     pub energy: f64,
-    /// AntiphasePowers into H_d at this time.
+    /// Powers into H_d at this time.
     pub powers: AntiphasePowers,
     /// Integrals of the powers since the release.
     pub supplied: AntiphasePowers,
