@@ -146,7 +146,7 @@ fn budgets_of_random_trees_agree_with_their_programs() {
     }
     let all = seeds.end;
     assert!(
-        4 * trees >= 3 * all && 10 * nested > all,
+        13 * trees >= 10 * all && 26 * nested > 3 * all,
         "{trees} {nested}"
     );
     energies.assert_below(1e-13, "energies");
