@@ -333,7 +333,10 @@ def switched(number, text, mutant):
 
 
 def build(copy, binaries, number=0):
-    """Builds test binaries; the folder of each one's package, and its file. Macros expand with mutant `number`."""
+    """Builds test binaries, and returns the folder of each one's package and its file.
+
+    Macros that are expanded in this build contain mutant `number`.
+    """
     targets = [["--lib"] if name in LIBRARIES else ["--test", name] for name in sorted(binaries)]
     command = ["cargo", "test", "--workspace", *sum(targets, []), "--no-run", "--message-format=json"]
     environment = dict(os.environ, MUTANT=str(number), BRANCHED_PENDULUM_CACHE="off")
@@ -351,8 +354,8 @@ def build(copy, binaries, number=0):
 def expanded(copy, number, binary):
     """Builds a test binary once more, whose emitted code has mutant `number`."""
     for folder in ["tests/src", f"tests/tests/{binary}"]:
-        for source in (copy / folder).rglob("*.rs"):
-            source.touch()
+        for file in (copy / folder).rglob("*.rs"):
+            file.touch()
     return build(copy, [binary], number)[binary]
 
 

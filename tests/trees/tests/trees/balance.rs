@@ -1,5 +1,5 @@
-//! The energy along motions: springs keep it in every form of the equations, and friction takes what
-//! its power says.
+//! Energies along motions: springs conserve the energy in every form of the equations, and the work
+//! of friction is the integral of its power.
 
 use branched_pendulum::ensemble::Ensemble;
 use branched_pendulum::prelude::*;
@@ -11,7 +11,7 @@ use super::plain::Numbers;
 /// How long motions are followed (s): some ten swings.
 pub(super) const END: f64 = 3.0;
 
-/// How far the energy of a state may be from that of another one (J).
+/// Largest difference of two energies that count as equal (J).
 const SAME: f64 = 1e-10;
 
 pub(super) fn method() -> Dop853<f64> {
@@ -59,7 +59,7 @@ pub(super) fn assert_energy_is_kept(tree: &PendulumTree, start: &State<f64>) {
     }
 }
 
-/// A tree, and the work of friction as one more number of the state.
+/// A tree whose state has the work of friction (J) as an additional component.
 struct WithLoss<'a>(&'a PendulumTree);
 
 impl Ode<f64> for WithLoss<'_> {
@@ -76,8 +76,8 @@ impl Ode<f64> for WithLoss<'_> {
     }
 }
 
-/// Asserts that friction takes at least `least` (J) along the motion from `start`, and just what its
-/// power says. Returns the state at the end.
+/// Asserts that friction dissipates more than `least` (J) along the motion from `start`, and that the
+/// change of the energy is the integral of the power of friction. Returns the state at the end.
 pub(super) fn assert_friction_takes(
     tree: &PendulumTree,
     start: &State<f64>,

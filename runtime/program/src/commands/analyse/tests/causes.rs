@@ -291,8 +291,8 @@ fn wrong_pictures_are_named() {
     }
 }
 
-/// Asserts that the budget of another pendulum than the assumed one of the paper does not close, and
-/// what the first advice begins with.
+/// Asserts that the budget does not close for a pendulum that differs from the assumed one of the
+/// paper, and that the first advice begins with `expected`.
 fn assert_other_pendulum(real: &str, angle: f64, expected: Option<&str>) {
     let text = camera(real, angle, 2).table(RADIANS[1], |_, a| a.to_vec());
     let (verdict, closing) = judge(&text, "--tree apparatus --set viscous_1=0,viscous_2=0");
@@ -300,8 +300,8 @@ fn assert_other_pendulum(real: &str, angle: f64, expected: Option<&str>) {
     assert_begins(&closing, expected, real);
 }
 
-/// Asserts the same of chains with 1.2, 1.05 and 3 times a constant that is assumed, from these
-/// starts.
+/// Asserts the same for chains of which one constant is 1.2, 1.05 or 3 times the assumed one, from
+/// these starts.
 fn assert_other_chains(starts: &[([f64; 2], u64)]) {
     for (real, expected) in [
         ("--real mass_2=0.165115164", None),
